@@ -1,0 +1,41 @@
+// Where the renderer gets voxels from: the volume store (server), or memory (tests, benches).
+#pragma once
+
+#include "volume/dataset.h"
+#include "volume/min_max_grid.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace voxsheet {
+
+/// One array of samples.
+struct VolumeKey {
+    std::string dataset; ///< DatasetMeta::key
+    int field = 0;
+    int step = 0;
+    int level = 0;
+
+    auto operator<=>(const VolumeKey&) const = default;
+};
+
+/// Thread-safe: called from the render thread and from upload workers.
+class VolumeProvider {
+  public:
+    virtual ~VolumeProvider() = default;
+
+    /// Throws NotFound if there is no such dataset.
+    [[nodiscard]] virtual std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const = 0;
+
+    /// Reads slices [zBegin, zBegin + zCount) of the level, little-endian, x fastest, in levelType(storedType, level).
+    /// out.size() == levelDims.x * levelDims.y * zCount * scalarBytes(type).
+    /// Throws NotFound, IoError (short file, gone), InvalidInput (range outside the level).
+    virtual void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const = 0;
+
+    /// Throws as readSlices.
+    [[nodiscard]] virtual MinMaxGrid readMinMax(const VolumeKey& key) const = 0;
+};
+
+} // namespace voxsheet
