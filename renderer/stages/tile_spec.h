@@ -1,0 +1,40 @@
+// What decides one cell's pixels, by value: no pointer into the program, so that it can be sent to another process.
+#pragma once
+
+#include "volume/transfer_function.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <string>
+
+namespace voxsheet {
+
+enum class Technique { Slices, Raycast, Mip };
+
+enum class Projection { Perspective, Orthographic };
+
+/// A camera in the world frame; it looks along -z of the view frame, x right, y up.
+struct CameraSpec {
+    glm::dmat4 viewFromWorld{1.0}; ///< rigid
+    Projection projection = Projection::Perspective;
+    double fovYDegrees = 30.0; ///< Perspective: full vertical angle, (0, 180)
+    double heightWorld = 1.0;  ///< Orthographic: world height of the picture, > 0
+};
+
+/// One cell's picture.
+struct TileSpec {
+    std::string dataset; ///< DatasetMeta::key
+    int field = 0;
+    int step = 0;
+    int level = 0; ///< level of detail to draw, 0 = full; must exist
+    Technique technique = Technique::Raycast;
+    CameraSpec camera;
+    std::shared_ptr<const TransferTable> transfer; ///< never null; content, not identity, matters
+    double unitLengthWorld = 1.0;                  ///< path length over which table opacities hold, > 0
+    double sampleDistanceVoxels = 0.5;             ///< distance of samples in voxels of the drawn level, (0, 64]
+    glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};  ///< sRGB, not premultiplied; alpha 0 = transparent
+    glm::ivec2 sizePixels{256};                    ///< [1, 8192] each
+};
+
+} // namespace voxsheet
