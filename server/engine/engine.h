@@ -1,0 +1,188 @@
+// The facade over datasets, workbook and render thread: the only thing that stream, http and cli see.
+#pragma once
+
+#include "base/errors.h"
+#include "frame/render_thread.h"
+#include "sheet/address.h"
+#include "sheet/commands.h"
+#include "sheet/style_keys.h"
+#include "sheet/workbook.h"
+#include "volume/dataset.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxsheet::engine {
+
+struct EngineOptions {
+    std::filesystem::path storeDir;
+    std::uint64_t storeLimitBytes = 0; ///< 0 = 20 GiB
+    std::filesystem::path uploadDir;
+    std::vector<std::filesystem::path> roots; ///< folders that datasets may be opened from
+    std::uint64_t textureBudgetBytes = 0;     ///< 0 = default of the device
+    std::uint64_t memoryBudgetBytes = 0;      ///< 0 = a quarter of RAM; also what one import may use
+    int threads = 0;                          ///< 0 = the cores this process may run on
+    int device = -1;
+    std::filesystem::path importer;     ///< voxsheet-import; empty = beside this program
+    std::filesystem::path workbookFile; ///< where saveWorkbook() writes when given no other path; may be empty
+    std::filesystem::path recoveryDir;  ///< where recovery files go; empty = uploadDir
+    bool render = true;                 ///< false: no GL (info, tests): images throw Unsupported
+};
+
+enum class DatasetState { Queued, Importing, Ready, Failed };
+
+/// A failure kept as a value: shown in the cell, in the API and on the command line.
+struct Failure {
+    ErrorKind kind = ErrorKind::Internal;
+    std::string message;
+};
+
+struct DatasetInfo {
+    std::string name;                        ///< unique in the workbook
+    std::vector<std::filesystem::path> files;
+    DatasetState state = DatasetState::Queued;
+    double progress = 0.0;                   ///< [0, 1]
+    std::optional<Failure> failure;          ///< when Failed
+    std::shared_ptr<const DatasetMeta> meta; ///< when Ready
+    std::uint64_t job = 0;
+};
+
+struct ImportRequest {
+    std::vector<std::filesystem::path> files; ///< one dataset from these (a single file or a series)
+    std::string name;                         ///< empty: the shortest distinguishing tail of the path
+    nlohmann::json options = nlohmann::json::object();
+    bool place = true; ///< put it into the next free cell of the first sheet
+};
+
+/// What one person looks at: style keys that stand above the workbook's own, for all cells and per cell.
+struct View {
+    std::vector<std::pair<std::string, sheet::StyleValue>> all;
+    std::vector<std::pair<sheet::Address, std::vector<std::pair<std::string, sheet::StyleValue>>>> cells;
+};
+
+/// How a tile is to be drawn, apart from what it shows.
+struct TileQuality {
+    glm::ivec2 sizePixels{256}; ///< of the picture that is rendered
+    int level = 0;              ///< smallest level of detail; 0 = full
+    double sampleDistanceFactor = 1.0; ///< > 1 while moving: multiplies sampling.distance
+};
+
+/// One cell made ready to draw: everything that decides its pixels, and the identity of those pixels.
+struct PreparedTile {
+    sheet::Address cell;
+    std::optional<TileSpec> spec;  ///< absent: `code` and `message` say why (or the cell is empty)
+    std::string identity;          ///< 32 hex digits over spec, device, driver, build; equal identity, equal pixels
+    std::string code;              ///< "", "#IMPORT!", "#GRID!", …
+    std::string message;           ///< sentence for `code`
+    double progress = 1.0;         ///< < 1 while the source is being imported or computed
+};
+
+struct ProbeValue {
+    sheet::Address cell;
+    std::optional<double> value;  ///< absent: outside the box, NaN, or no volume (see `note`)
+    glm::dvec3 world{0.0};
+    glm::ivec3 index{0};          ///< nearest sample
+    std::string unit;
+    std::string note;
+};
+
+struct SheetImageRequest {
+    std::string sheet;                         ///< empty = the first
+    std::optional<sheet::AddressRange> range;  ///< absent = all used cells
+    glm::ivec2 sizePixels{0};                  ///< of the whole image; 0 = 320x240 per cell
+    View view;
+    std::string title;                         ///< drawn above the sheet when not empty
+    PixelFormat format = PixelFormat::Rgba8;
+    bool annotate = true;                      ///< names, headers, colour bars as the `annotations` key says
+};
+
+struct SheetImage {
+    TilePixels pixels;
+    std::string identity;
+    int failedCells = 0; ///< cells drawn as a labelled error tile
+    bool final = true;
+};
+
+enum class ChangeKind { Workbook, Datasets };
+using ChangeListener = std::function<void(ChangeKind, std::uint64_t version)>;
+
+/// Thread-safe: every member may be called from any thread. Snapshots are immutable.
+class Engine {
+  public:
+    /// Throws GpuError if options.render and no usable EGL is there; IoError if a folder cannot be made.
+    explicit Engine(EngineOptions options);
+    ~Engine();
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    // --- datasets ---
+    /// Starts imports in the background (a job each); returns the names given. Throws InvalidInput if a path lies outside the
+    /// roots, NotFound if it does not exist, Conflict if the name is taken.
+    std::vector<std::string> importDatasets(const std::vector<ImportRequest>& requests);
+    /// Stores the bytes as a source in uploadDir under `fileName` (its last path component) and imports it.
+    std::string importUpload(const std::string& name, const std::filesystem::path& receivedFile, const std::string& fileName);
+    [[nodiscard]] std::vector<DatasetInfo> datasets() const;
+    /// Throws NotFound.
+    [[nodiscard]] DatasetInfo dataset(const std::string& name) const;
+    void removeDataset(const std::string& name);
+    void cancelImport(const std::string& name);
+    /// Blocks until no import and no formula is under way, or the deadline passed; false on deadline.
+    bool waitIdle(double seconds) const;
+    /// Header-only look at a file (voxsheet-import --header-only); throws as the importer reports.
+    [[nodiscard]] nlohmann::json previewFile(const std::filesystem::path& file, const nlohmann::json& options) const;
+
+    // --- workbook ---
+    [[nodiscard]] sheet::Snapshot snapshot() const;
+    [[nodiscard]] std::uint64_t version() const;
+    [[nodiscard]] const sheet::KeyTable& keys() const;
+    /// Applies one command as one undo step; the same non-empty gesture id merges. Throws InvalidInput, NotFound.
+    sheet::EditReport apply(const sheet::Command& command, const std::string& gesture = {});
+    bool undo();
+    bool redo();
+    [[nodiscard]] bool canUndo() const;
+    [[nodiscard]] bool canRedo() const;
+    [[nodiscard]] nlohmann::json workbookJson() const;
+    /// Replaces the document (one undo step) and imports its sources. `folder`: what relative source paths start from.
+    void setWorkbookJson(const nlohmann::json& document, const std::filesystem::path& folder);
+    /// Atomic: temporary file, fsync, rename. Throws IoError; the old file stays whole.
+    void saveWorkbook(const std::filesystem::path& file) const;
+    /// Saves a recovery file when there are edits that saveWorkbook has not written. Never over a named workbook.
+    std::optional<std::filesystem::path> saveRecovery() const;
+
+    // --- pictures ---
+    [[nodiscard]] PreparedTile prepareTile(const sheet::Workbook& workbook, const std::string& sheetName,
+                                           const sheet::Address& cell, const View& view,
+                                           const TileQuality& quality) const;
+    [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& tiles, FramePriority priority,
+                                                  std::function<bool()> cancelled = {},
+                                                  PixelFormat format = PixelFormat::Rgba8) const;
+    [[nodiscard]] SheetImage renderSheet(const SheetImageRequest& request) const;
+    /// One value per used cell at a world point; or at what lies under pixel (px, py) of a cell's picture.
+    [[nodiscard]] std::vector<ProbeValue> probeWorld(const std::string& sheetName, const glm::dvec3& world) const;
+    [[nodiscard]] std::vector<ProbeValue> probePixel(const std::string& sheetName, const sheet::Address& cell,
+                                                     const View& view, glm::dvec2 pixel, glm::ivec2 sizePixels) const;
+    /// The transfer function as drawn: colour-bar stops, range, unit, scale (JSON as in the API).
+    [[nodiscard]] nlohmann::json colourBar(const std::string& sheetName, const sheet::Address& cell, const View& view) const;
+    [[nodiscard]] nlohmann::json colourMaps() const;
+
+    // --- state ---
+    [[nodiscard]] const RenderDevice* device() const; ///< null when options.render is false
+    [[nodiscard]] ResidencyState residency() const;
+    [[nodiscard]] const EngineOptions& options() const;
+    [[nodiscard]] std::uint64_t addListener(ChangeListener listener); ///< called from any thread; must not block
+    void removeListener(std::uint64_t id);
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace voxsheet::engine

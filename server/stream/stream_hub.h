@@ -1,0 +1,83 @@
+// One framed binary stream per page: only tiles that changed, newest view first, at most two frames unacknowledged.
+//
+// Message = u32le headerBytes, u32le payloadBytes, header (UTF-8 JSON), payload (the encoded picture, or nothing).
+#pragma once
+
+#include "engine/engine.h"
+#include "stream/tile_service.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace voxsheet::stream {
+
+struct ViewTile {
+    sheet::Address cell;
+    glm::ivec2 sizePixels{0}; ///< device pixels of the picture on the page, [1, 8192]
+};
+
+/// What one page shows right now. The view with the largest id wins.
+struct ClientView {
+    std::uint64_t id = 0;
+    bool moving = false;         ///< a gesture is under way: speed before quality
+    std::vector<ViewTile> tiles; ///< the visible cells, most important first
+    std::optional<sheet::Address> focus;
+    engine::View overrides;
+};
+
+struct StreamUpdate {
+    std::optional<std::uint64_t> ack; ///< cumulative: the last frame painted
+    std::optional<ClientView> view;
+};
+
+struct StreamStatistics {
+    int streams = 0;
+    std::uint64_t frames = 0;
+    std::uint64_t tiles = 0;
+    std::uint64_t bytes = 0;
+};
+
+class StreamClient;
+
+/// Thread-safe. The thread that writes a stream's bytes calls next() in a loop; rendering and encoding of that stream
+/// happen inside next(), so a client that reads slowly delays only itself.
+class StreamHub {
+  public:
+    StreamHub(engine::Engine& engine, TileService& tiles);
+    ~StreamHub();
+    StreamHub(const StreamHub&) = delete;
+    StreamHub& operator=(const StreamHub&) = delete;
+
+    /// Returns the stream's id (unguessable). Throws NotFound if the sheet does not exist, LimitExceeded beyond 256 streams.
+    std::string open(const std::string& sheet);
+    void close(const std::string& id);
+    /// Throws NotFound if there is no such stream.
+    void update(const std::string& id, const StreamUpdate& update);
+    /// The next message, ready to be written. Empty optional: the stream is closed (or the hub is stopping). Never blocks
+    /// longer than 5 s: a ping comes when nothing else does.
+    [[nodiscard]] std::optional<std::string> next(const std::string& id);
+    /// The view a stream's page last sent, for probes of that page. Throws NotFound.
+    [[nodiscard]] ClientView view(const std::string& id) const;
+    /// Makes every next() return at once, for ever.
+    void stop();
+    [[nodiscard]] StreamStatistics statistics() const;
+
+  private:
+    [[nodiscard]] std::shared_ptr<StreamClient> find(const std::string& id) const;
+
+    engine::Engine& engine_;
+    TileService& tiles_;
+    std::uint64_t listener_ = 0;
+    mutable std::mutex mutex_;
+    bool stopping_ = false;
+    StreamStatistics closed_; ///< sums over streams that are gone
+    std::unordered_map<std::string, std::shared_ptr<StreamClient>> clients_;
+};
+
+} // namespace voxsheet::stream
