@@ -21,16 +21,28 @@ struct VolumeKey {
     auto operator<=>(const VolumeKey&) const = default;
 };
 
+/// Bytes [offset, offset + count) of a level's array.
+struct ByteRange {
+    std::size_t offset = 0;
+    std::size_t count = 0;
+};
+
+/// Throws NotFound if the dataset has no such field, step or level; the sentence names what there is.
+void validateVolumeKey(const DatasetMeta& meta, const VolumeKey& key);
+/// Where slices [zBegin, zBegin + zCount) are in the level's array. Throws NotFound as validateVolumeKey,
+/// InvalidInput if the slices are not in the level.
+[[nodiscard]] ByteRange sliceBytes(const DatasetMeta& meta, const VolumeKey& key, int zBegin, int zCount);
+
 /// Thread-safe: called from the render thread and from upload workers.
 class VolumeProvider {
-  public:
+public:
     virtual ~VolumeProvider() = default;
 
     /// Throws NotFound if there is no such dataset.
     [[nodiscard]] virtual std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const = 0;
 
-    /// Reads slices [zBegin, zBegin + zCount) of the level, little-endian, x fastest, in levelType(storedType, level).
-    /// out.size() == levelDims.x * levelDims.y * zCount * scalarBytes(type).
+    /// Reads slices [zBegin, zBegin + zCount) of the level, little-endian, x fastest, in
+    /// levelType(storedType, level). out.size() == levelDims.x * levelDims.y * zCount * scalarBytes(type).
     /// Throws NotFound, IoError (short file, gone), InvalidInput (range outside the level).
     virtual void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const = 0;
 
