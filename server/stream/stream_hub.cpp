@@ -1,0 +1,100 @@
+#include "stream/stream_hub.h"
+
+#include "stream/stream_client.h"
+
+#include <random>
+
+namespace voxsheet::stream {
+
+namespace {
+
+constexpr std::size_t kMaxStreams = 256;
+
+std::string randomId() {
+    std::random_device source;
+    std::string id;
+    for (int word = 0; word < 4; ++word) {
+        const auto bits = source();
+        for (unsigned shift = 0; shift < 32; shift += 4) id.push_back("0123456789abcdef"[(bits >> shift) & 15U]);
+    }
+    return id;
+}
+
+void add(StreamStatistics& sum, const StreamStatistics& part) {
+    sum.frames += part.frames;
+    sum.tiles += part.tiles;
+    sum.bytes += part.bytes;
+}
+
+} // namespace
+
+StreamHub::StreamHub(engine::Engine& engine, TileService& tiles) : engine_(engine), tiles_(tiles) {
+    listener_ = engine_.addListener([this](engine::ChangeKind kind, std::uint64_t version) {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [id, client] : clients_) client->changed(kind, version);
+    });
+}
+
+StreamHub::~StreamHub() {
+    engine_.removeListener(listener_);
+    stop();
+}
+
+std::string StreamHub::open(const std::string& sheet) {
+    static_cast<void>(engine_.snapshot()->sheet(sheet)); // throws NotFound
+    const std::lock_guard lock(mutex_);
+    if (stopping_) throw Cancelled("stream", "the server is stopping");
+    if (clients_.size() >= kMaxStreams)
+        throw LimitExceeded("stream", "256 pages are connected already", "close some of them");
+    const auto id = randomId();
+    clients_[id] = std::make_shared<StreamClient>(id, sheet, engine_, tiles_);
+    return id;
+}
+
+void StreamHub::close(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    const auto found = clients_.find(id);
+    if (found == clients_.end()) return;
+    found->second->close();
+    add(closed_, found->second->statistics());
+    clients_.erase(found);
+}
+
+std::shared_ptr<StreamClient> StreamHub::find(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = clients_.find(id);
+    return found == clients_.end() ? nullptr : found->second;
+}
+
+void StreamHub::update(const std::string& id, const StreamUpdate& update) {
+    const auto client = find(id);
+    if (!client) throw NotFound("stream " + id, "it is closed", "open a new one");
+    client->update(update);
+}
+
+std::optional<std::string> StreamHub::next(const std::string& id) {
+    const auto client = find(id);
+    return client ? client->next() : std::nullopt;
+}
+
+ClientView StreamHub::view(const std::string& id) const {
+    const auto client = find(id);
+    if (!client) throw NotFound("stream " + id, "it is closed", "open a new one");
+    return client->view();
+}
+
+void StreamHub::stop() {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    for (const auto& [id, client] : clients_) client->close();
+}
+
+StreamStatistics StreamHub::statistics() const {
+    const std::lock_guard lock(mutex_);
+    StreamStatistics sum = closed_;
+    sum.streams = static_cast<int>(clients_.size());
+    for (const auto& [id, client] : clients_) add(sum, client->statistics());
+    return sum;
+}
+
+} // namespace voxsheet::stream

@@ -1,0 +1,64 @@
+#include "resolution/interactive_quality.h"
+
+#include <gtest/gtest.h>
+
+namespace voxsheet {
+namespace {
+
+/// A machine that needs `msPerPixel` per full-quality pixel.
+double drawn(double msPerPixel, double pixels, int step) {
+    return 2.0 + msPerPixel * pixels * kQualitySteps[step].relativeWork();
+}
+
+TEST(InteractiveQuality, StepsGetCheaper) {
+    for (int step = 1; step < kQualityStepCount; ++step)
+        EXPECT_LT(kQualitySteps[step].relativeWork(), kQualitySteps[step - 1].relativeWork());
+}
+
+TEST(InteractiveQuality, FastMachineReachesFullQuality) {
+    InteractiveQuality quality(60.0);
+    int step = quality.choose(600e3);
+    for (int frame = 0; frame < 20; ++frame) {
+        quality.measured(600e3, step, drawn(1e-6, 600e3, step));
+        step = quality.choose(600e3);
+    }
+    EXPECT_EQ(step, 0);
+}
+
+TEST(InteractiveQuality, SlowMachineStaysWithinBudget) {
+    InteractiveQuality quality(60.0);
+    const double cost = 200.0 / 600e3; // 200 ms at full quality
+    int step = quality.choose(600e3);
+    for (int frame = 0; frame < 20; ++frame) {
+        quality.measured(600e3, step, drawn(cost, 600e3, step));
+        step = quality.choose(600e3);
+    }
+    EXPECT_LE(drawn(cost, 600e3, step), 60.0);
+    EXPECT_LE(step, 3) << "coarser than the budget asks for";
+}
+
+TEST(InteractiveQuality, SteadyTimesDoNotFlicker) {
+    InteractiveQuality quality(60.0);
+    const double cost = 110.0 / 600e3;
+    int step = quality.choose(600e3);
+    int changes = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        const double noise = (frame % 2 == 0) ? 1.1 : 0.9;
+        quality.measured(600e3, step, drawn(cost, 600e3, step) * noise);
+        const int next = quality.choose(600e3);
+        if (frame > 10 && next != step) ++changes;
+        step = next;
+    }
+    EXPECT_LE(changes, 1);
+}
+
+TEST(InteractiveQuality, MorePixelsMeanACoarserStep) {
+    InteractiveQuality quality(60.0);
+    quality.measured(100e3, 0, 55.0);
+    const int few = quality.choose(100e3);
+    const int many = quality.choose(2000e3);
+    EXPECT_GT(many, few);
+}
+
+} // namespace
+} // namespace voxsheet
