@@ -4,7 +4,8 @@
 #include "base/errors.h"
 #include "frame/render_thread.h"
 #include "sheet/address.h"
-#include "sheet/commands.h"
+#include "sheet/history.h"
+#include "sheet/style.h"
 #include "sheet/style_keys.h"
 #include "sheet/workbook.h"
 #include "volume/dataset.h"
@@ -14,10 +15,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace voxsheet::engine {
@@ -31,10 +33,11 @@ struct EngineOptions {
     std::uint64_t memoryBudgetBytes = 0;      ///< 0 = a quarter of RAM; also what one import may use
     int threads = 0;                          ///< 0 = the cores this process may run on
     int device = -1;
-    std::filesystem::path importer;     ///< voxsheet-import; empty = beside this program
-    std::filesystem::path workbookFile; ///< where saveWorkbook() writes when given no other path; may be empty
-    std::filesystem::path recoveryDir;  ///< where recovery files go; empty = uploadDir
-    bool render = true;                 ///< false: no GL (info, tests): images throw Unsupported
+    std::filesystem::path importer; ///< voxsheet-import; empty = beside this program
+    std::filesystem::path
+        workbookFile;                  ///< where saveWorkbook() writes when given no other path; may be empty
+    std::filesystem::path recoveryDir; ///< where recovery files go; empty = uploadDir
+    bool render = true;                ///< false: no GL (info, tests): images throw Unsupported
 };
 
 enum class DatasetState { Queued, Importing, Ready, Failed };
@@ -46,7 +49,7 @@ struct Failure {
 };
 
 struct DatasetInfo {
-    std::string name;                        ///< unique in the workbook
+    std::string name; ///< unique in the workbook
     std::vector<std::filesystem::path> files;
     DatasetState state = DatasetState::Queued;
     double progress = 0.0;                   ///< [0, 1]
@@ -59,49 +62,84 @@ struct ImportRequest {
     std::vector<std::filesystem::path> files; ///< one dataset from these (a single file or a series)
     std::string name;                         ///< empty: the shortest distinguishing tail of the path
     nlohmann::json options = nlohmann::json::object();
-    bool place = true; ///< put it into the next free cell of the first sheet
+    bool place = true;                  ///< put it into a cell: `cell`, or the next free one
+    std::optional<sheet::Address> cell; ///< must be free
 };
 
-/// What one person looks at: style keys that stand above the workbook's own, for all cells and per cell.
+/// Where a batch of imports goes.
+struct ImportLayout {
+    std::string sheet;                     ///< empty = the first
+    std::optional<int> columns;            ///< of a sheet that is still empty
+    std::vector<std::string> columnTitles; ///< from column A; empty strings leave what is there
+    std::vector<std::string> rowTitles;    ///< from row 1
+};
+
+/// What an edit did.
+struct EditReport {
+    std::uint64_t version = 0;           ///< of the workbook afterwards
+    std::vector<sheet::HiddenBy> hidden; ///< SetStyle only: cells whose nearer values hide the edit
+};
+
+enum class CellState { Empty, Pending, Ready, Error };
+
+/// What stands in a cell, whether it is on screen or not.
+struct CellStatus {
+    sheet::Address cell;
+    CellState state = CellState::Empty;
+    std::string code;                        ///< Error: "#IMPORT!", "#GRID!", …
+    std::string message;                     ///< Error: the sentence; Pending: what is being done
+    double progress = 1.0;                   ///< Pending: [0, 1)
+    std::shared_ptr<const DatasetMeta> meta; ///< Ready: of the dataset or the formula's result
+    std::vector<std::string> notes;          ///< what a user should know, one sentence each
+};
+
+/// Style values that are not in the workbook. `all` stands above the sheet's own values and below those of
+/// columns, rows and cells (linked cells follow, overrides stay); `cells` stands above everything in the
+/// workbook; `request` above all.
 struct View {
-    std::vector<std::pair<std::string, sheet::StyleValue>> all;
-    std::vector<std::pair<sheet::Address, std::vector<std::pair<std::string, sheet::StyleValue>>>> cells;
+    sheet::StyleMap all;                             ///< what one page looks at, for all linked cells
+    std::map<sheet::Address, sheet::StyleMap> cells; ///< what it looks at in one cell
+    sheet::StyleMap request;                         ///< the query of one image request, or `--set`
+
+    bool operator==(const View&) const = default;
 };
 
 /// How a tile is to be drawn, apart from what it shows.
 struct TileQuality {
-    glm::ivec2 sizePixels{256}; ///< of the picture that is rendered
-    int level = 0;              ///< smallest level of detail; 0 = full
+    glm::ivec2 sizePixels{256};        ///< of the picture that is rendered
+    int level = 0;                     ///< smallest level of detail; 0 = full
     double sampleDistanceFactor = 1.0; ///< > 1 while moving: multiplies sampling.distance
 };
 
 /// One cell made ready to draw: everything that decides its pixels, and the identity of those pixels.
 struct PreparedTile {
     sheet::Address cell;
-    std::optional<TileSpec> spec;  ///< absent: `code` and `message` say why (or the cell is empty)
-    std::string identity;          ///< 32 hex digits over spec, device, driver, build; equal identity, equal pixels
-    std::string code;              ///< "", "#IMPORT!", "#GRID!", …
-    std::string message;           ///< sentence for `code`
-    double progress = 1.0;         ///< < 1 while the source is being imported or computed
+    std::optional<TileSpec> spec; ///< absent: `code` and `message` say why (or the cell is empty)
+    std::string identity;  ///< 32 hex digits over spec, device, driver, build; equal identity, equal pixels
+    std::string code;      ///< "", "#IMPORT!", "#GRID!", …
+    std::string message;   ///< sentence for `code`
+    double progress = 1.0; ///< < 1 while the source is being imported or computed
 };
 
 struct ProbeValue {
     sheet::Address cell;
-    std::optional<double> value;  ///< absent: outside the box, NaN, or no volume (see `note`)
+    std::optional<double>
+        value; ///< of the nearest sample; absent: outside the box, NaN, or no volume (see `note`)
+    std::optional<double> interpolated; ///< trilinear at the point itself, as drawn
     glm::dvec3 world{0.0};
-    glm::ivec3 index{0};          ///< nearest sample
+    glm::ivec3 index{0}; ///< nearest sample
     std::string unit;
     std::string note;
 };
 
 struct SheetImageRequest {
-    std::string sheet;                         ///< empty = the first
-    std::optional<sheet::AddressRange> range;  ///< absent = all used cells
-    glm::ivec2 sizePixels{0};                  ///< of the whole image; 0 = 320x240 per cell
+    std::string sheet;                 ///< empty = the first
+    std::optional<sheet::Range> range; ///< absent = all used cells
+    glm::ivec2 sizePixels{0};          ///< of the whole image; 0 = 320x240 per cell
     View view;
-    std::string title;                         ///< drawn above the sheet when not empty
+    std::string title; ///< drawn above the sheet when not empty
     PixelFormat format = PixelFormat::Rgba8;
-    bool annotate = true;                      ///< names, headers, colour bars as the `annotations` key says
+    bool annotate = true; ///< names, headers, colour bars as the `annotations` key says
 };
 
 struct SheetImage {
@@ -116,7 +154,7 @@ using ChangeListener = std::function<void(ChangeKind, std::uint64_t version)>;
 
 /// Thread-safe: every member may be called from any thread. Snapshots are immutable.
 class Engine {
-  public:
+public:
     /// Throws GpuError if options.render and no usable EGL is there; IoError if a folder cannot be made.
     explicit Engine(EngineOptions options);
     ~Engine();
@@ -124,11 +162,13 @@ class Engine {
     Engine& operator=(const Engine&) = delete;
 
     // --- datasets ---
-    /// Starts imports in the background (a job each); returns the names given. Throws InvalidInput if a path lies outside the
-    /// roots, NotFound if it does not exist, Conflict if the name is taken.
-    std::vector<std::string> importDatasets(const std::vector<ImportRequest>& requests);
+    /// Starts imports in the background (a job each); returns the names given. Throws InvalidInput if a path
+    /// lies outside the roots, NotFound if it does not exist, Conflict if the name is taken.
+    std::vector<std::string> importDatasets(const std::vector<ImportRequest>& requests,
+                                            const ImportLayout& layout = {});
     /// Stores the bytes as a source in uploadDir under `fileName` (its last path component) and imports it.
-    std::string importUpload(const std::string& name, const std::filesystem::path& receivedFile, const std::string& fileName);
+    std::string importUpload(const std::string& name, const std::filesystem::path& receivedFile,
+                             const std::string& fileName);
     [[nodiscard]] std::vector<DatasetInfo> datasets() const;
     /// Throws NotFound.
     [[nodiscard]] DatasetInfo dataset(const std::string& name) const;
@@ -137,25 +177,33 @@ class Engine {
     /// Blocks until no import and no formula is under way, or the deadline passed; false on deadline.
     bool waitIdle(double seconds) const;
     /// Header-only look at a file (voxsheet-import --header-only); throws as the importer reports.
-    [[nodiscard]] nlohmann::json previewFile(const std::filesystem::path& file, const nlohmann::json& options) const;
+    [[nodiscard]] nlohmann::json previewFile(const std::filesystem::path& file,
+                                             const nlohmann::json& options) const;
 
     // --- workbook ---
-    [[nodiscard]] sheet::Snapshot snapshot() const;
+    [[nodiscard]] sheet::WorkbookPtr snapshot() const;
     [[nodiscard]] std::uint64_t version() const;
     [[nodiscard]] const sheet::KeyTable& keys() const;
-    /// Applies one command as one undo step; the same non-empty gesture id merges. Throws InvalidInput, NotFound.
-    sheet::EditReport apply(const sheet::Command& command, const std::string& gesture = {});
+    /// Applies one command as one undo step; the same non-empty gesture id merges. Throws InvalidInput,
+    /// NotFound.
+    EditReport apply(const sheet::Command& command, const std::string& gesture = {});
     bool undo();
     bool redo();
     [[nodiscard]] bool canUndo() const;
     [[nodiscard]] bool canRedo() const;
     [[nodiscard]] nlohmann::json workbookJson() const;
-    /// Replaces the document (one undo step) and imports its sources. `folder`: what relative source paths start from.
+    /// Replaces the document (one undo step) and imports its sources. `folder`: what relative source paths
+    /// start from.
     void setWorkbookJson(const nlohmann::json& document, const std::filesystem::path& folder);
     /// Atomic: temporary file, fsync, rename. Throws IoError; the old file stays whole.
     void saveWorkbook(const std::filesystem::path& file) const;
-    /// Saves a recovery file when there are edits that saveWorkbook has not written. Never over a named workbook.
+    /// Saves a recovery file when there are edits that saveWorkbook has not written. Never over a named
+    /// workbook.
     std::optional<std::filesystem::path> saveRecovery() const;
+
+    /// Of every cell of the sheet that has a source, in reading order. Throws NotFound.
+    [[nodiscard]] std::vector<CellStatus> cellStatuses(const sheet::Workbook& workbook,
+                                                       const std::string& sheetName) const;
 
     // --- pictures ---
     [[nodiscard]] PreparedTile prepareTile(const sheet::Workbook& workbook, const std::string& sheetName,
@@ -166,21 +214,25 @@ class Engine {
                                                   PixelFormat format = PixelFormat::Rgba8) const;
     [[nodiscard]] SheetImage renderSheet(const SheetImageRequest& request) const;
     /// One value per used cell at a world point; or at what lies under pixel (px, py) of a cell's picture.
-    [[nodiscard]] std::vector<ProbeValue> probeWorld(const std::string& sheetName, const glm::dvec3& world) const;
+    [[nodiscard]] std::vector<ProbeValue> probeWorld(const std::string& sheetName,
+                                                     const glm::dvec3& world) const;
     [[nodiscard]] std::vector<ProbeValue> probePixel(const std::string& sheetName, const sheet::Address& cell,
-                                                     const View& view, glm::dvec2 pixel, glm::ivec2 sizePixels) const;
+                                                     const View& view, glm::dvec2 pixel,
+                                                     glm::ivec2 sizePixels) const;
     /// The transfer function as drawn: colour-bar stops, range, unit, scale (JSON as in the API).
-    [[nodiscard]] nlohmann::json colourBar(const std::string& sheetName, const sheet::Address& cell, const View& view) const;
+    [[nodiscard]] nlohmann::json colourBar(const std::string& sheetName, const sheet::Address& cell,
+                                           const View& view) const;
     [[nodiscard]] nlohmann::json colourMaps() const;
 
     // --- state ---
     [[nodiscard]] const RenderDevice* device() const; ///< null when options.render is false
     [[nodiscard]] ResidencyState residency() const;
     [[nodiscard]] const EngineOptions& options() const;
-    [[nodiscard]] std::uint64_t addListener(ChangeListener listener); ///< called from any thread; must not block
+    [[nodiscard]] std::uint64_t
+    addListener(ChangeListener listener); ///< called from any thread; must not block
     void removeListener(std::uint64_t id);
 
-  private:
+private:
     class Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
