@@ -1,0 +1,120 @@
+#include "store/store_writer.h"
+
+#include "base/errors.h"
+#include "store/meta_json.h"
+#include "store/store_key.h"
+#include "volume/pyramid.h"
+#include "volume/statistics.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+
+namespace voxsheet::store {
+
+namespace {
+
+void validateMeta(const DatasetMeta& meta) {
+    if (!isStoreKey(meta.key))
+        throw InvalidInput("store key '" + meta.key.substr(0, 80) + "'", "it is no key");
+    validateGrid(meta.grid);
+    if (meta.fields.empty() || meta.times.empty())
+        throw InvalidInput("dataset '" + meta.sourcePath + "'", "it has no field or no time step");
+    (void)metaToJson(meta); // throws for numbers that JSON cannot hold, before any work is done
+}
+
+} // namespace
+
+StoreWriter::StoreWriter(const VolumeStore& store, DatasetMeta meta) : store_(store), meta_(std::move(meta)) {
+    for (auto& field : meta_.fields)
+        field.steps.clear();
+    validateMeta(meta_);
+    for (auto& field : meta_.fields)
+        field.steps.resize(meta_.times.size());
+    written_.resize(meta_.fields.size() * meta_.times.size());
+    store_.makeRoom(entryBytes(meta_));
+    temporary_ = store_.newTemporaryFolder();
+    try {
+        lock_ = FileHandle(temporary_ / kLockFile, O_RDWR | O_CREAT | O_EXCL);
+        // Shared: readers that find the entry right after the rename must not be turned away.
+        if (!lock_.tryLock(false)) throw IoError(temporary_.string(), "another process holds its lock");
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove_all(temporary_, ignored);
+        throw;
+    }
+}
+
+StoreWriter::~StoreWriter() {
+    std::error_code ignored;
+    if (!committed_) std::filesystem::remove_all(temporary_, ignored);
+}
+
+void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples) {
+    validateVolumeKey(meta_, {meta_.key, field, step, 0});
+    const auto index = static_cast<std::size_t>(field * meta_.stepCount() + step);
+    if (written_[index]) throw InvalidInput("dataset '" + meta_.sourcePath + "'", "an array was given twice");
+
+    auto& description = meta_.fields[static_cast<std::size_t>(field)];
+    StoredArray array{description.storedType, meta_.grid.dims, samples, description.valueScale,
+                      description.valueOffset};
+    auto statistics = computeStatistics(array); // checks the size as well
+
+    const auto layout = arrayLayout(meta_, field);
+    const FileHandle file(temporary_ / arrayFileName(field, step), O_RDWR | O_CREAT | O_EXCL);
+    std::vector<std::byte> current = std::move(samples);
+    for (int level = 0; level < meta_.levels(); ++level) {
+        array.samples = current;
+        const auto l = static_cast<std::size_t>(level);
+        file.writeAll(layout.levels[l].offset, current);
+        const auto grid = buildMinMaxGrid(array, meta_.grid.periodic);
+        file.writeAll(layout.minMax[l].offset, std::as_bytes(std::span(grid.ranges)));
+        if (level + 1 == meta_.levels()) break;
+        current = coarserLevel(array);
+        array.type = pyramidType(array.type);
+        array.dims = coarserDims(array.dims);
+    }
+    if (::ftruncate(file.descriptor(), static_cast<off_t>(layout.fileBytes)) != 0)
+        throw IoError(temporary_.string(), std::strerror(errno));
+    file.sync();
+    description.steps[static_cast<std::size_t>(step)] = std::move(statistics);
+    written_[index] = true;
+}
+
+void StoreWriter::writeMeta() const {
+    const nlohmann::json json{{"voxsheet_store_entry", kEntryVersion}, {"dataset", metaToJson(meta_)}};
+    const auto text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const FileHandle file(temporary_ / kMetaFile, O_WRONLY | O_CREAT | O_EXCL);
+    file.writeAll(0, std::as_bytes(std::span(text)));
+    file.sync();
+}
+
+void StoreWriter::publish() {
+    const auto target = store_.folder() / meta_.key;
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        if (std::rename(temporary_.c_str(), target.c_str()) == 0) {
+            committed_ = true;
+            return;
+        }
+        if (errno != EEXIST && errno != ENOTEMPTY)
+            throw IoError(target.string(), std::string("renaming failed: ") + std::strerror(errno));
+        // Another process was first (then its entry is as good), or a damaged one is in the way (then open
+        // removes it).
+        if (store_.open(meta_.key)) return;
+    }
+    throw IoError(target.string(), "an entry that cannot be read is in the way", "remove that folder");
+}
+
+void StoreWriter::commit() {
+    if (!std::all_of(written_.begin(), written_.end(), [](bool done) { return done; }))
+        throw InvalidInput("dataset '" + meta_.sourcePath + "'", "not every field and time step was read");
+    writeMeta();
+    syncFolder(temporary_);
+    publish();
+    syncFolder(store_.folder());
+    store_.makeRoom(0, meta_.key);
+}
+
+} // namespace voxsheet::store

@@ -1,0 +1,46 @@
+// Makes one entry of the volume store out of level-0 arrays: statistics, histogram, pyramid, min-max grids.
+#pragma once
+
+#include "store/volume_store.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxsheet::store {
+
+/// Use from one thread; the work on an array is spread over the cores. Without commit() nothing is left in
+/// the store.
+class StoreWriter {
+public:
+    /// Makes room in the store, then a temporary folder.
+    /// \param meta  with meta.key the key of the entry to be (an import's or a formula's); steps of fields
+    /// are overwritten Throws InvalidInput if the key, the grid, or the numbers of fields and steps are bad,
+    /// or a number is not finite; IoError.
+    StoreWriter(const VolumeStore& store, DatasetMeta meta);
+    ~StoreWriter();
+    StoreWriter(const StoreWriter&) = delete;
+    StoreWriter& operator=(const StoreWriter&) = delete;
+
+    /// Level 0 of one field and step, in the field's storedType, x fastest, native byte order. Each once, in
+    /// any order. Throws InvalidInput if the size is wrong or the array came already; IoError.
+    void addArray(int field, int step, std::vector<std::byte>&& samples);
+
+    /// Makes the entry visible under its key, durably. If another process made the same entry meanwhile, that
+    /// one stays. Throws InvalidInput if an array is missing; IoError.
+    void commit();
+
+private:
+    void writeMeta() const;
+    void publish();
+
+    const VolumeStore& store_;
+    DatasetMeta meta_;
+    std::filesystem::path temporary_;
+    FileHandle lock_;
+    std::vector<bool> written_; ///< [field * steps + step]
+    bool committed_ = false;
+};
+
+} // namespace voxsheet::store
