@@ -1,0 +1,180 @@
+#include "cli/engine_arguments.h"
+
+#include "base/errors.h"
+#include "sheet/bounded_json.h"
+#include "sheet/commands.h"
+#include "sheet/dataset_names.h"
+#include "sheet/layout.h"
+#include "sheet/layout_pattern.h"
+#include "sheet/workbook_json.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+namespace voxsheet::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMaxWorkbookBytes = 16U << 20U;
+
+fs::path cacheFolder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+        return fs::path(cache) / "voxsheet";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return fs::path(home) / ".cache" / "voxsheet";
+    return fs::temp_directory_path() / "voxsheet";
+}
+
+std::string readText(const fs::path& file) {
+    std::error_code error;
+    if (!fs::exists(file, error)) throw NotFound(file.string(), "there is no such file", "check the path");
+    const auto bytes = fs::file_size(file, error);
+    if (error || bytes > kMaxWorkbookBytes)
+        throw InvalidInput(file.string(), "a workbook is a regular file of at most 16 MiB");
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (in.bad()) throw IoError(file.string(), "could not be read");
+    return text;
+}
+
+bool endsInJson(const std::string& name) {
+    return name.size() > 5 && name.substr(name.size() - 5) == ".json";
+}
+
+/// The named files as a workbook document: names, places and titles by the same rules as any other import.
+sheet::Workbook workbookOf(const EngineArguments& arguments, const sheet::KeyTable& keys) {
+    auto paths = arguments.sources;
+    sheet::sortNaturally(paths);
+    const auto names = sheet::distinguishingNames(paths);
+    sheet::AddDatasets add;
+    sheet::Workbook workbook;
+    add.sheet = workbook.sheets.front().name;
+    add.columns = arguments.columns;
+    std::vector<sheet::Address> places;
+    if (!arguments.layout.empty()) {
+        const auto placement = sheet::placeByPattern(arguments.layout, paths);
+        places = placement.places;
+        add.columnTitles = placement.columnTitles;
+        add.rowTitles = placement.rowTitles;
+        workbook.sheets.front().columns = placement.layout.columns;
+        workbook.sheets.front().rows = placement.layout.rows;
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        sheet::NamedDataset dataset;
+        dataset.name = names[i];
+        dataset.source.files = {fs::absolute(paths[i]).lexically_normal().string()};
+        if (!places.empty()) dataset.place = places[i];
+        add.datasets.push_back(std::move(dataset));
+    }
+    return sheet::apply(workbook, add, keys);
+}
+
+} // namespace
+
+void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
+    app.add_option("SOURCES", arguments.sources, "One workbook (.json), or data files");
+    app.add_option(
+        "--root", arguments.roots,
+        "Folder that datasets may be opened from; repeatable (default: the working directory and the "
+        "folders of the named files)");
+    app.add_option("--store", arguments.store,
+                   "Folder of the volume store, a cache (default: in the user's cache)");
+    app.add_option("--store-limit", arguments.storeLimit, "Bytes the store may take, e.g. 20G");
+    app.add_option("--upload-dir", arguments.uploadDir, "Folder that uploaded files are kept in");
+    app.add_option("--texture-budget", arguments.textureBudget,
+                   "Bytes of textures, e.g. 1G (default: a share of the device's memory)");
+    app.add_option("--memory-budget", arguments.memoryBudget,
+                   "Bytes that one import or formula may take (default: a quarter of RAM)");
+    app.add_option("--threads", arguments.threads, "Worker threads (default: the cores this process may use)")
+        ->check(CLI::Range(0, 1024));
+    app.add_option("--device", arguments.device, "EGL device to draw on (default: chosen; see GET /api/v1)")
+        ->check(CLI::Range(-1, 1024));
+    app.add_option("--columns", arguments.columns,
+                   "Columns of the sheet (default: chosen by the number of files)")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--layout", arguments.layout, "Place files by their names, e.g. 'sub-{row}_{col}.nii.gz'");
+}
+
+std::uint64_t parseBytes(const std::string& text, const std::string& field) {
+    if (text.empty()) return 0;
+    std::size_t used = 0;
+    double number = 0.0;
+    try {
+        number = std::stod(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    static const std::string units = "KMGT";
+    auto suffix = text.substr(used);
+    double factor = 1.0;
+    if (!suffix.empty()) {
+        const auto unit = units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(suffix[0]))));
+        const auto rest = suffix.substr(1);
+        if (unit == std::string::npos || !(rest.empty() || rest == "B" || rest == "iB")) used = 0;
+        factor = std::pow(1024.0, static_cast<double>(unit) + 1.0);
+    }
+    if (used == 0 || !std::isfinite(number) || number <= 0.0 || number * factor > 0x1p60)
+        throw InvalidInput(field, "`" + text + "` is no number of bytes", "write for example 512M or 2G")
+            .withField(field);
+    return static_cast<std::uint64_t>(number * factor);
+}
+
+engine::EngineOptions engineOptions(const EngineArguments& arguments) {
+    engine::EngineOptions options;
+    options.storeDir = arguments.store.empty() ? cacheFolder() / "store" : fs::path(arguments.store);
+    options.uploadDir =
+        arguments.uploadDir.empty() ? cacheFolder() / "uploads" : fs::path(arguments.uploadDir);
+    options.storeLimitBytes = parseBytes(arguments.storeLimit, "--store-limit");
+    options.textureBudgetBytes = parseBytes(arguments.textureBudget, "--texture-budget");
+    options.memoryBudgetBytes = parseBytes(arguments.memoryBudget, "--memory-budget");
+    options.threads = arguments.threads;
+    options.device = arguments.device;
+    std::set<fs::path> roots;
+    const auto addRoot = [&](const fs::path& folder) {
+        if (roots.insert(folder.lexically_normal()).second)
+            options.roots.push_back(folder.lexically_normal());
+    };
+    if (arguments.roots.empty()) addRoot(fs::current_path());
+    for (const auto& root : arguments.roots)
+        addRoot(fs::absolute(root));
+    if (arguments.roots.empty())
+        for (const auto& source : arguments.sources)
+            addRoot(fs::absolute(source).lexically_normal().parent_path());
+    if (arguments.sources.size() == 1 && isWorkbook(arguments.sources.front()))
+        options.workbookFile = fs::absolute(arguments.sources.front());
+    return options;
+}
+
+bool isWorkbook(const fs::path& file) {
+    if (!endsInJson(file.string())) return false;
+    const auto text = readText(file);
+    const auto document = nlohmann::json::parse(text, nullptr, false);
+    return document.is_object() && document.contains("voxsheet");
+}
+
+void openSources(engine::Engine& engine, const EngineArguments& arguments) {
+    if (arguments.sources.empty()) return;
+    const bool several = arguments.sources.size() > 1;
+    const auto& first = arguments.sources.front();
+    const auto existing = [](const std::string& path) { return fs::exists(path); };
+    const auto books = std::count_if(arguments.sources.begin(), arguments.sources.end(),
+                                     [&](const auto& path) { return existing(path) && isWorkbook(path); });
+    if (books > 0 && several)
+        throw InvalidInput(first, "a workbook can not be opened together with other files",
+                           "name one workbook, or only data files");
+    if (books == 1) {
+        const auto document = sheet::parseBoundedJson(readText(first), first);
+        engine.setWorkbookJson(document, fs::absolute(first).parent_path());
+        return;
+    }
+    engine.setWorkbookJson(sheet::workbookToJson(workbookOf(arguments, engine.keys())), fs::current_path());
+}
+
+} // namespace voxsheet::cli

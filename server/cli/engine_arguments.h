@@ -1,0 +1,50 @@
+// Options that serve and render share: what to open, and what the engine may use.
+#pragma once
+
+#include "engine/engine.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace voxsheet::cli {
+
+struct EngineArguments {
+    std::vector<std::string> sources; ///< one workbook (.json with a "voxsheet" member), or data files
+    std::vector<std::string> roots;
+    std::string store;
+    std::string storeLimit;
+    std::string uploadDir;
+    std::string textureBudget;
+    std::string memoryBudget;
+    int threads = 0;
+    int device = -1;
+    std::optional<int> columns;
+    std::string layout;
+};
+
+void addEngineArguments(CLI::App& app, EngineArguments& arguments);
+
+/// Bytes from `512M`, `2G`, `1.5GiB`, `800000000`; K, M, G, T are powers of 1024. Throws InvalidInput with
+/// `field`.
+[[nodiscard]] std::uint64_t parseBytes(const std::string& text, const std::string& field);
+
+/// Default folders: $XDG_CACHE_HOME or ~/.cache, then voxsheet/{store,uploads}. Throws InvalidInput for bad
+/// sizes.
+[[nodiscard]] engine::EngineOptions engineOptions(const EngineArguments& arguments);
+
+/// True for a JSON document with a "voxsheet" member (a raw file's sidecar has none). Throws NotFound,
+/// IoError.
+[[nodiscard]] bool isWorkbook(const std::filesystem::path& file);
+
+/// Starts what the arguments name: the workbook, or the files, naturally sorted and placed by --layout or
+/// --columns. A file that is not there or is damaged becomes an error in its cell. Throws InvalidInput
+/// (mixed, or a layout that does not fit), NotFound (the workbook).
+void openSources(engine::Engine& engine, const EngineArguments& arguments);
+
+} // namespace voxsheet::cli

@@ -1,0 +1,132 @@
+#include "engine/dataset_json.h"
+
+#include "base/errors.h"
+
+#include <array>
+
+namespace voxsheet::engine {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 119> kSymbols{
+    "",   "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",  "S",
+    "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Ga", "Ge", "As",
+    "Se", "Br", "Kr", "Rb", "Sr", "Y",  "Zr", "Nb", "Mo", "Tc", "Ru", "Rh", "Pd", "Ag", "Cd", "In", "Sn",
+    "Sb", "Te", "I",  "Xe", "Cs", "Ba", "La", "Ce", "Pr", "Nd", "Pm", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho",
+    "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W",  "Re", "Os", "Ir", "Pt", "Au", "Hg", "Tl", "Pb", "Bi", "Po",
+    "At", "Rn", "Fr", "Ra", "Ac", "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md",
+    "No", "Lr", "Rf", "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
+
+json vectorJson(const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); }
+
+json rangeJson(const ValueStatistics& statistics) {
+    if (statistics.finiteCount == 0) return nullptr;
+    return json::array({statistics.min, statistics.max});
+}
+
+/// Back from values to the numbers that stand in the source.
+json rawRangeJson(const FieldMeta& field) {
+    const auto& statistics = field.steps.at(0).statistics;
+    if (statistics.finiteCount == 0) return nullptr;
+    const auto raw = [&](double value) { return (value - field.valueOffset) / field.valueScale; };
+    const double low = raw(statistics.min);
+    const double high = raw(statistics.max);
+    return low <= high ? json::array({low, high}) : json::array({high, low});
+}
+
+json fieldJson(const FieldMeta& field) {
+    json result{{"name", field.name},
+                {"quantity", field.quantity},
+                {"unit", field.unit},
+                {"type", scalarName(field.storedType)}};
+    if (field.steps.empty()) return result; // header only: not read yet
+    const auto& statistics = field.steps.front().statistics;
+    result["range"] = rangeJson(statistics);
+    result["mean"] = statistics.mean;
+    result["stddev"] = statistics.standardDeviation;
+    result["nan"] = statistics.nanCount;
+    return result;
+}
+
+void addGeometry(json& result, const Grid& grid) {
+    const auto spacing = spacingWorld(grid);
+    const glm::dmat3 axes(grid.worldFromIndex);
+    json direction = json::array();
+    for (int row = 0; row < 3; ++row) {
+        json line = json::array();
+        for (int column = 0; column < 3; ++column)
+            line.push_back(axes[column][row] / spacing[column]);
+        direction.push_back(line);
+    }
+    result["dims"] = json::array({grid.dims.x, grid.dims.y, grid.dims.z});
+    result["spacing"] = vectorJson(spacing);
+    result["origin"] = vectorJson(glm::dvec3(grid.worldFromIndex[3]));
+    result["direction"] = direction;
+    result["periodic"] = grid.periodic.x || grid.periodic.y || grid.periodic.z;
+    result["periodic_axes"] = json::array({grid.periodic.x, grid.periodic.y, grid.periodic.z});
+    result["centring"] = grid.centring == Centring::Cell ? "cell" : "point";
+}
+
+void addCrystal(json& result, const Crystal& crystal) {
+    result["lattice"] = json::array(
+        {vectorJson(crystal.lattice[0]), vectorJson(crystal.lattice[1]), vectorJson(crystal.lattice[2])});
+    json atoms = json::array();
+    for (const auto& atom : crystal.atoms)
+        atoms.push_back({{"element", elementSymbol(atom.atomicNumber)},
+                         {"number", atom.atomicNumber},
+                         {"position", vectorJson(atom.positionWorld)}});
+    result["atoms"] = atoms;
+    result["comment"] = crystal.comment;
+}
+
+} // namespace
+
+json describeDataset(const DatasetMeta& meta) {
+    json result{{"kind", "grid"},
+                {"format", meta.format},
+                {"type", scalarName(meta.sourceType)},
+                {"anatomical", meta.anatomical},
+                {"steps", meta.stepCount()},
+                {"times", meta.times},
+                {"levels", meta.levels()},
+                {"notes", meta.notes}};
+    addGeometry(result, meta.grid);
+    const auto& first = meta.fields.at(0);
+    if (!first.steps.empty()) result["range"] = rawRangeJson(first);
+    result["value_scale"] = first.valueScale;
+    result["value_offset"] = first.valueOffset;
+    result["units"] = {{"length", meta.lengthUnit}, {"value", first.unit}};
+    result["fields"] = json::array();
+    for (const auto& field : meta.fields)
+        result["fields"].push_back(fieldJson(field));
+    if (meta.crystal) addCrystal(result, *meta.crystal);
+    return result;
+}
+
+json describeHistogram(const DatasetMeta& meta, int field, int step) {
+    const bool known =
+        field >= 0 && static_cast<std::size_t>(field) < meta.fields.size() && step >= 0 &&
+        static_cast<std::size_t>(step) < meta.fields[static_cast<std::size_t>(field)].steps.size();
+    if (!known)
+        throw NotFound("field " + std::to_string(field) + ", step " + std::to_string(step),
+                       "the dataset has " + std::to_string(meta.fields.size()) + " fields and " +
+                           std::to_string(meta.stepCount()) + " steps");
+    const auto& data = meta.fields[static_cast<std::size_t>(field)].steps[static_cast<std::size_t>(step)];
+    return {{"low", data.histogram.low},
+            {"high", data.histogram.high},
+            {"counts", data.histogram.counts},
+            {"mean", data.statistics.mean},
+            {"min", data.statistics.min},
+            {"max", data.statistics.max},
+            {"stddev", data.statistics.standardDeviation},
+            {"nan", data.statistics.nanCount}};
+}
+
+const char* elementSymbol(int atomicNumber) noexcept {
+    if (atomicNumber < 1 || atomicNumber >= static_cast<int>(kSymbols.size())) return "";
+    return kSymbols[static_cast<std::size_t>(atomicNumber)];
+}
+
+} // namespace voxsheet::engine

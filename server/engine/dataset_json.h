@@ -1,0 +1,25 @@
+// What a dataset holds, in the words of `voxsheet info --json` and `GET /api/v1/datasets`.
+#pragma once
+
+#include "volume/dataset.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxsheet::engine {
+
+/// {kind: "grid", format, dims, spacing, origin, direction (3x3, row-major; its columns are the grid's axes),
+/// type (of the source), range (first field and step, raw source numbers), value_scale, value_offset, units:
+/// {length, value}, periodic, periodic_axes, centring, fields: [{name, quantity, unit, type, range, mean,
+/// stddev, nan}], steps, times, levels, notes}, and for crystals lattice (rows a, b, c) and atoms [{element,
+/// number, position}]. Ranges inside `fields` are in values (after slope and intercept); a field without a
+/// finite value has range null.
+[[nodiscard]] nlohmann::json describeDataset(const DatasetMeta& meta);
+
+/// {low, high, counts, mean, min, max, stddev, nan} of one field and step. Throws NotFound if there is none
+/// such.
+[[nodiscard]] nlohmann::json describeHistogram(const DatasetMeta& meta, int field, int step);
+
+/// "Mg" for 12; "" outside 1..118.
+[[nodiscard]] const char* elementSymbol(int atomicNumber) noexcept;
+
+} // namespace voxsheet::engine
