@@ -1,0 +1,29 @@
+#include "gpu/workarounds.h"
+
+#include "base/errors.h"
+
+#include <gtest/gtest.h>
+
+namespace voxsheet::gpu {
+namespace {
+
+constexpr const char* kLlvmpipe = "llvmpipe (LLVM 15.0.6, 256 bits)";
+
+TEST(Workarounds, AreOnForTheDriversThatNeedThem) {
+    EXPECT_EQ(workaroundsFor(kLlvmpipe, ""), (Workarounds{true, true}));
+    EXPECT_EQ(workaroundsFor("NVIDIA H100 PCIe/PCIe/SSE2", ""), (Workarounds{false, false}));
+}
+
+TEST(Workarounds, CanBeSwitchedOffByName) {
+    EXPECT_EQ(workaroundsFor(kLlvmpipe, "r8-as-r16"), (Workarounds{true, false}));
+    EXPECT_EQ(workaroundsFor(kLlvmpipe, " clear-before-compute , r8-as-r16 "), (Workarounds{false, false}));
+    EXPECT_EQ(workaroundNames(workaroundsFor(kLlvmpipe, "r8-as-r16")),
+              std::vector<std::string>{"clear-before-compute"});
+}
+
+TEST(Workarounds, RefusesAnUnknownName) {
+    EXPECT_THROW((void)workaroundsFor(kLlvmpipe, "r8-as-r61"), InvalidInput);
+}
+
+} // namespace
+} // namespace voxsheet::gpu
