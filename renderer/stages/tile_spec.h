@@ -1,4 +1,5 @@
-// What decides one cell's pixels, by value: no pointer into the program, so that it can be sent to another process.
+// What decides one cell's pixels, by value: no pointer into the program, so that it can be sent to another
+// process.
 #pragma once
 
 #include "volume/transfer_function.h"
@@ -32,9 +33,9 @@ struct TileSpec {
     CameraSpec camera;
     std::shared_ptr<const TransferTable> transfer; ///< never null; content, not identity, matters
     double unitLengthWorld = 1.0;                  ///< path length over which table opacities hold, > 0
-    double sampleDistanceVoxels = 0.5;             ///< distance of samples in voxels of the drawn level, (0, 64]
-    glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};  ///< sRGB, not premultiplied; alpha 0 = transparent
-    glm::ivec2 sizePixels{256};                    ///< [1, 8192] each
+    double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
+    glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
+    glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
 };
 
 } // namespace voxsheet

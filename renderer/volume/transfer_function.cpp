@@ -112,7 +112,7 @@ glm::dvec4 colourAt(const TransferFunction& function, double position) {
 bool isUnit(double value) { return value >= 0.0 && value <= 1.0; }
 
 bool isUnit(const glm::dvec4& rgba) {
-    return isUnit(rgba.r) && isUnit(rgba.g) && isUnit(rgba.b) && isUnit(rgba.a);
+    return isUnit(rgba.x) && isUnit(rgba.y) && isUnit(rgba.z) && isUnit(rgba.w);
 }
 
 template <typename Point>
@@ -228,12 +228,12 @@ float maxOpacity(const TransferTable& table, double low, double high) {
     const double from = tablePosition(table, low) * last - 1.0;
     const double to = tablePosition(table, high) * last + 1.0;
     float result = 0.0F;
-    if (from < 0.0) result = std::max(result, table.below.a);
-    if (to > last) result = std::max(result, table.above.a);
+    if (from < 0.0) result = std::max(result, table.below.w);
+    if (to > last) result = std::max(result, table.above.w);
     const auto begin = static_cast<std::size_t>(std::clamp(std::floor(from), 0.0, last));
     const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, last));
     for (auto i = begin; i <= end; ++i)
-        result = std::max(result, table.entries[i].a);
+        result = std::max(result, table.entries[i].w);
     return result;
 }
 

@@ -24,17 +24,17 @@ TransferFunction greyRamp(double low, double high) {
 TEST(TransferFunction, PiecewiseIsLinearBetweenPointsAndHoldsBeyondTheEnds) {
     auto function = greyRamp(10.0, 20.0);
     function.opacities = {{0.25, 0.2}, {0.5, 0.6}};
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 10.0).a, 0.2);
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 13.75).a, 0.4);
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 19.0).a, 0.6);
-    EXPECT_NEAR(evaluateTransfer(function, 13.0).r, 0.3, 1e-12);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 10.0).w, 0.2);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 13.75).w, 0.4);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 19.0).w, 0.6);
+    EXPECT_NEAR(evaluateTransfer(function, 13.0).x, 0.3, 1e-12);
 }
 
 TEST(TransferFunction, TwoPointsAtOnePositionMakeAStep) {
     auto function = greyRamp(0.0, 1.0);
     function.opacities = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.8}, {1.0, 0.8}};
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, std::nextafter(0.5, 0.0)).a, 0.0);
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 0.5).a, 0.8);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, std::nextafter(0.5, 0.0)).w, 0.0);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 0.5).w, 0.8);
 }
 
 TEST(TransferFunction, LinearShapeMatchesItsFormula) {
@@ -45,9 +45,9 @@ TEST(TransferFunction, LinearShapeMatchesItsFormula) {
     EXPECT_EQ(glm::dvec3(evaluateTransfer(function, 0.1)), glm::dvec3(0, 0, 1));
     EXPECT_EQ(glm::dvec3(evaluateTransfer(function, 0.9)), glm::dvec3(1, 0, 0));
     const auto quarter = evaluateTransfer(function, 0.3);
-    EXPECT_NEAR(quarter.b, 0.5, 1e-12);
-    EXPECT_NEAR(quarter.g, 0.5, 1e-12);
-    EXPECT_NEAR(evaluateTransfer(function, 0.4).g, 1.0, 1e-12);
+    EXPECT_NEAR(quarter.z, 0.5, 1e-12);
+    EXPECT_NEAR(quarter.y, 0.5, 1e-12);
+    EXPECT_NEAR(evaluateTransfer(function, 0.4).y, 1.0, 1e-12);
 }
 
 TEST(TransferFunction, EveryShapeSumsToOneAndRisesFromBlueToRed) {
@@ -57,17 +57,17 @@ TEST(TransferFunction, EveryShapeSumsToOneAndRisesFromBlueToRed) {
         double red = -1.0;
         for (double value = -1.0; value <= 3.0; value += 0.01) {
             const auto rgba = evaluateTransfer(function, value);
-            EXPECT_NEAR(rgba.r + rgba.g + rgba.b, 1.0, 1e-12);
-            EXPECT_GE(rgba.r, red);
-            EXPECT_GE(rgba.g, 0.0);
-            red = rgba.r;
+            EXPECT_NEAR(rgba.x + rgba.y + rgba.z, 1.0, 1e-12);
+            EXPECT_GE(rgba.x, red);
+            EXPECT_GE(rgba.y, 0.0);
+            red = rgba.x;
         }
     }
     auto function = greyRamp(0.0, 1.0);
     function.shape = TransferShape::Parabolic;
-    EXPECT_NEAR(evaluateTransfer(function, 0.375).g, 0.25, 1e-12);
+    EXPECT_NEAR(evaluateTransfer(function, 0.375).y, 0.25, 1e-12);
     function.shape = TransferShape::Exponential;
-    EXPECT_NEAR(evaluateTransfer(function, 0.375).g, std::expm1(1.5) / std::expm1(3.0), 1e-12);
+    EXPECT_NEAR(evaluateTransfer(function, 0.375).y, std::expm1(1.5) / std::expm1(3.0), 1e-12);
 }
 
 TEST(TransferFunction, PositionAndValueAreInverse) {
@@ -107,7 +107,7 @@ TEST(TransferFunction, SymLogIsLinearInsideTheThresholdAndOdd) {
 TEST(TransferFunction, OutsideColoursAndNan) {
     auto function = greyRamp(0.0, 1.0);
     function.nan = {1, 0, 1, 0.25};
-    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 2.0).a, 0.5);
+    EXPECT_DOUBLE_EQ(evaluateTransfer(function, 2.0).w, 0.5);
     function.hasBelow = function.hasAbove = true;
     function.below = {0, 1, 0, 0.75};
     function.above = {0, 0, 1, 1};
@@ -148,7 +148,7 @@ TEST(TransferTable, MaxOpacityBoundsEveryValueInside) {
         const double high = low + 0.1 * uniform(random);
         const float bound = maxOpacity(*table, low, high);
         for (int i = 0; i <= 20; ++i)
-            EXPECT_LE(classify(*table, low + (high - low) * i / 20).a, double(bound) + 1e-7);
+            EXPECT_LE(classify(*table, low + (high - low) * i / 20).w, double(bound) + 1e-7);
     }
     EXPECT_EQ(maxOpacity(*table, 0.35, 0.85), 0.0F);
     EXPECT_EQ(maxOpacity(*table, -5.0, 0.25), 0.0F);
@@ -172,7 +172,7 @@ TEST(TransferTable, RefusesWhatItCannotMean) {
     EXPECT_EQ(field([](TransferFunction& f) { f.low = 1.0; }), "range.min");
     EXPECT_EQ(field([](TransferFunction& f) { f.high = std::nan(""); }), "range.min");
     EXPECT_EQ(field([](TransferFunction& f) { f.colours.clear(); }), "transfer.points");
-    EXPECT_EQ(field([](TransferFunction& f) { f.colours[0].rgb.g = 1.5; }), "transfer.points");
+    EXPECT_EQ(field([](TransferFunction& f) { f.colours[0].rgb.y = 1.5; }), "transfer.points");
     EXPECT_EQ(field([](TransferFunction& f) { f.opacities.clear(); }), "transfer.opacity");
     EXPECT_EQ(field([](TransferFunction& f) { f.opacities = {{0.5, 0.1}, {0.4, 0.1}}; }), "transfer.opacity");
     EXPECT_EQ(field([](TransferFunction& f) { f.opacities[0].opacity = -0.1; }), "transfer.opacity");
@@ -189,7 +189,7 @@ TEST(TransferTable, RefusesWhatItCannotMean) {
               "range.scale");
     EXPECT_EQ(field([](TransferFunction& f) {
                   f.hasBelow = true;
-                  f.below.a = 2.0;
+                  f.below.w = 2.0;
               }),
               "transfer.belowColor");
 }

@@ -1,0 +1,32 @@
+#include "stages/banded_dispatch.h"
+
+#include <algorithm>
+
+namespace voxsheet {
+namespace {
+
+constexpr int kGroupPixels = 8;
+constexpr double kSamplesPerDispatch = 0x1p29;
+
+} // namespace
+
+int rowsPerDispatch(glm::ivec2 sizePixels, double samplesPerPixel) {
+    const double perGroupRow = std::max(1.0, samplesPerPixel) * sizePixels.x * kGroupPixels;
+    const double groupRows = std::clamp(kSamplesPerDispatch / perGroupRow, 1.0, 8192.0);
+    return kGroupPixels * static_cast<int>(groupRows);
+}
+
+void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double samplesPerPixel) {
+    program.set("targetSize", sizePixels);
+    const int band = rowsPerDispatch(sizePixels, samplesPerPixel);
+    for (int firstRow = 0; firstRow < sizePixels.y; firstRow += band) {
+        const int rows = std::min(band, sizePixels.y - firstRow);
+        program.set("firstRow", firstRow);
+        program.dispatch(
+            {(sizePixels.x + kGroupPixels - 1) / kGroupPixels, (rows + kGroupPixels - 1) / kGroupPixels, 1});
+        if (firstRow + band < sizePixels.y) glFlush();
+    }
+    gpu::storageBarrier();
+}
+
+} // namespace voxsheet

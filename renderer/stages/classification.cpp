@@ -1,0 +1,92 @@
+#include "stages/classification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace voxsheet {
+namespace {
+
+constexpr std::size_t kCachedTables = 64;
+constexpr double kMaxExtinction = 4096.0;
+
+glm::vec4 shaderEntry(const glm::vec4& entry, std::optional<double> exponent) {
+    const double opacity = entry.w;
+    if (!exponent) {
+        const double extinction = opacity < 1.0 ? -std::log2(1.0 - opacity) : kMaxExtinction;
+        return {glm::vec3(entry), static_cast<float>(std::min(extinction, kMaxExtinction))};
+    }
+    const double alpha = opacity < 1.0 ? -std::expm1(*exponent * std::log1p(-opacity)) : 1.0;
+    return glm::vec4(glm::dvec4(glm::dvec3(entry) * alpha, alpha));
+}
+
+} // namespace
+
+std::vector<glm::vec4> shaderTable(const TransferTable& table, std::optional<double> exponent) {
+    std::vector<glm::vec4> texels;
+    texels.reserve(table.entries.size() + 2);
+    texels.push_back(shaderEntry(table.below, exponent));
+    for (const auto& entry : table.entries)
+        texels.push_back(shaderEntry(entry, exponent));
+    texels.push_back(shaderEntry(table.above, exponent));
+    return texels;
+}
+
+ClassificationMapping classificationMapping(const TransferTable& table, double valueScale,
+                                            double valueOffset) {
+    const double steps = static_cast<double>(table.entries.size() - 1);
+    constexpr double firstEntry = 1.5; // entry 0 is `below`; half an entry rounds to nearest
+    ClassificationMapping mapping;
+    switch (table.scale) {
+    case ValueScale::Linear: {
+        const double range = table.high - table.low;
+        mapping.mappedFromTexel = {valueScale / range, (valueOffset - table.low) / range};
+        mapping.entryFromMapped = {steps, firstEntry};
+        break;
+    }
+    case ValueScale::Log: // in units of the low end, so that every range fits a float
+        mapping.mappedFromTexel = {valueScale / table.low, valueOffset / table.low};
+        mapping.entryFromMapped = {steps / std::log2(table.high / table.low), firstEntry};
+        break;
+    case ValueScale::SymLog: {
+        mapping.mappedFromTexel = {valueScale / table.symLogThreshold, valueOffset / table.symLogThreshold};
+        const double atZero = tablePosition(table, 0.0);
+        const double perUnit = tablePosition(table, table.symLogThreshold) - atZero;
+        mapping.entryFromMapped = {steps * perUnit, steps * atZero + firstEntry};
+        break;
+    }
+    }
+    return mapping;
+}
+
+ClassificationStage::ClassificationStage(gpu::Context& context)
+    : context_(context), textures_(kCachedTables) {}
+
+gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, const ResidentVolume& volume) {
+    const auto format = volume.texture->internalFormat();
+    const bool isFloat = format == GL_R32F || format == GL_R16F;
+    return {{"VALUE_SCALE", std::to_string(static_cast<int>(table.scale))},
+            {"MAY_BE_NAN", isFloat ? "1" : "0"}};
+}
+
+void ClassificationStage::bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
+                               std::optional<double> exponent, const ResidentVolume& volume) {
+    const auto* texture = textures_.find([&](const Key& key) {
+        return key.exponent == exponent && (key.table == table || *key.table == *table);
+    });
+    if (texture == nullptr) {
+        const auto texels = shaderTable(*table, exponent);
+        const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
+        gpu::Texture fresh(context_, GL_TEXTURE_1D, GL_RGBA32F, size);
+        fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
+        texture = &textures_.insert({table, exponent}, std::move(fresh));
+    }
+    volume.texture->bind(volumeUnit);
+    texture->bind(tableUnit);
+    const auto mapping = classificationMapping(*table, volume.valueScale, volume.valueOffset);
+    program.set("mappedFromTexel", glm::vec2(mapping.mappedFromTexel));
+    program.set("entryFromMapped", glm::vec2(mapping.entryFromMapped));
+    program.set("lastEntry", static_cast<float>(table->entries.size() + 1));
+}
+
+} // namespace voxsheet

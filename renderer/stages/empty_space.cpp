@@ -1,0 +1,73 @@
+#include "stages/empty_space.h"
+
+#include <cmath>
+#include <span>
+
+namespace voxsheet {
+namespace {
+
+constexpr std::size_t kCachedVolumes = 128;
+constexpr int kLongestChunk = 16;
+
+template <typename T>
+gpu::Texture cellTexture(gpu::Context& context, const glm::ivec3& dims, const std::vector<T>& cells,
+                         GLenum internalFormat, GLenum format, GLenum type) {
+    const auto size = CellLayout::of(dims).cells;
+    gpu::Texture texture(context, GL_TEXTURE_3D, internalFormat, size);
+    texture.upload(glm::ivec3(0), size, format, type, std::as_bytes(std::span(cells)));
+    return texture;
+}
+
+} // namespace
+
+int chunkSamples(double sampleDistanceVoxels) {
+    int samples = 1;
+    while (samples < kLongestChunk && 2.0 * samples * sampleDistanceVoxels <= 2.0 * CellLayout::reachSamples)
+        samples *= 2;
+    return samples;
+}
+
+EmptySpaceStage::EmptySpaceStage(gpu::Context& context) : context_(context), textures_(kCachedVolumes) {}
+
+void EmptySpaceStage::bindOccupied(const gpu::Program& program,
+                                   const std::shared_ptr<const TransferTable>& table,
+                                   const ResidentVolume& volume) {
+    const auto* cells = textures_.find([&](const Key& key) {
+        return key.minMax == volume.minMax && key.table && (key.table == table || *key.table == *table);
+    });
+    if (cells == nullptr) {
+        const auto marks = occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table);
+        cells = &textures_.insert({volume.minMax, table}, cellTexture(context_, volume.dims, marks, GL_R8UI,
+                                                                      GL_RED_INTEGER, GL_UNSIGNED_BYTE));
+    }
+    bind(program, volume, *cells);
+}
+
+void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
+    const auto* cells =
+        textures_.find([&](const Key& key) { return key.minMax == volume.minMax && !key.table; });
+    if (cells == nullptr) {
+        const float sign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
+        auto largest = largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign);
+        // In signed texels, as the shader compares them; rounded up, so that the bound stays one.
+        const double scale = std::abs(volume.valueScale);
+        for (auto& value : largest) {
+            const double texel = (double(value) - double(sign) * volume.valueOffset) / scale;
+            value = std::nextafter(static_cast<float>(texel + 1e-6 * std::abs(texel)), HUGE_VALF);
+        }
+        cells = &textures_.insert({volume.minMax, nullptr},
+                                  cellTexture(context_, volume.dims, largest, GL_R32F, GL_RED, GL_FLOAT));
+    }
+    bind(program, volume, *cells);
+}
+
+void EmptySpaceStage::bind(const gpu::Program& program, const ResidentVolume& volume,
+                           const gpu::Texture& cells) const {
+    cells.bind(cellsUnit);
+    const auto layout = CellLayout::of(volume.dims);
+    program.set("cellsPerTexture", glm::vec3(volume.dims) / static_cast<float>(layout.cellSamples));
+    program.set("lastCell", layout.cells - 1);
+    program.set("periodicAxes", glm::vec3(volume.meta->grid.periodic));
+}
+
+} // namespace voxsheet

@@ -1,0 +1,43 @@
+// Occupancy on the GPU: what empty_space.glsl reads. Rebuilt only when the volume or the table changes.
+#pragma once
+
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "residency/residency_manager.h"
+#include "stages/occupancy.h"
+#include "stages/recent_cache.h"
+#include "volume/transfer_function.h"
+
+#include <memory>
+
+namespace voxsheet {
+
+/// Samples in a stretch of a ray that one look-up answers for: a power of two in [1, 16], as many as fit into
+/// twice the reach of a cell at this distance of samples.
+[[nodiscard]] int chunkSamples(double sampleDistanceVoxels);
+
+class EmptySpaceStage {
+public:
+    static constexpr GLuint cellsUnit = 2;
+
+    explicit EmptySpaceStage(gpu::Context& context);
+
+    /// For compositing: cells are > 0 where the table can show something.
+    void bindOccupied(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
+                      const ResidentVolume& volume);
+    /// For maximum projection: cells hold the largest texel (or the largest negated one, where values fall
+    /// with texels).
+    void bindLargest(const gpu::Program& program, const ResidentVolume& volume);
+
+private:
+    struct Key {
+        std::shared_ptr<const MinMaxGrid> minMax;
+        std::shared_ptr<const TransferTable> table; ///< null: largest texels
+    };
+    void bind(const gpu::Program& program, const ResidentVolume& volume, const gpu::Texture& cells) const;
+
+    gpu::Context& context_;
+    RecentCache<Key, gpu::Texture> textures_;
+};
+
+} // namespace voxsheet

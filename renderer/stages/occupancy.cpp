@@ -1,0 +1,126 @@
+#include "stages/occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxsheet {
+namespace {
+
+constexpr long kMaxSmallCells = 1L << 24;
+
+/// The bricks that a cell and its surroundings touch on one axis, without repeats.
+std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samples, int bricks,
+                                            bool periodic) {
+    std::vector<std::vector<int>> result(static_cast<std::size_t>(cells));
+    for (int cell = 0; cell < cells; ++cell) {
+        auto& touched = result[static_cast<std::size_t>(cell)];
+        const int begin = cell * cellSamples - CellLayout::reachSamples;
+        // One sample beyond the reach, because the look-up point is rounded to a cell in 32-bit floats.
+        const int end = (cell + 1) * cellSamples + CellLayout::reachSamples + 1;
+        for (int sample = begin - 1; sample < end; ++sample) {
+            const int inside =
+                periodic ? ((sample % samples) + samples) % samples : std::clamp(sample, 0, samples - 1);
+            const int brick = std::min(inside / MinMaxGrid::brickSamples, bricks - 1);
+            if (std::find(touched.begin(), touched.end(), brick) == touched.end()) touched.push_back(brick);
+        }
+    }
+    return result;
+}
+
+std::size_t offset(const glm::ivec3& size, int x, int y, int z) {
+    return static_cast<std::size_t>((static_cast<long>(z) * size.y + y) * size.x + x);
+}
+
+/// Spreads one number per brick to cells: the largest over the bricks that the cell touches, axis by axis.
+template <typename T>
+std::vector<T> largestOverBricks(std::vector<T> values, glm::ivec3 size, const glm::ivec3& dims,
+                                 const glm::bvec3& periodic) {
+    const auto layout = CellLayout::of(dims);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto touched =
+            bricksOfCells(layout.cells[axis], layout.cellSamples, dims[axis], size[axis], periodic[axis]);
+        glm::ivec3 wider = size;
+        wider[axis] = layout.cells[axis];
+        std::vector<T> spread(static_cast<std::size_t>(wider.x) * static_cast<std::size_t>(wider.y) *
+                              static_cast<std::size_t>(wider.z));
+        glm::ivec3 step(0);
+        step[axis] = 1;
+        for (int z = 0; z < wider.z; ++z)
+            for (int y = 0; y < wider.y; ++y)
+                for (int x = 0; x < wider.x; ++x) {
+                    glm::ivec3 brick(x, y, z);
+                    const auto& list = touched[static_cast<std::size_t>(brick[axis])];
+                    brick[axis] = list.front();
+                    T largest = values[offset(size, brick.x, brick.y, brick.z)];
+                    for (std::size_t i = 1; i < list.size(); ++i) {
+                        brick[axis] = list[i];
+                        largest = std::max(largest, values[offset(size, brick.x, brick.y, brick.z)]);
+                    }
+                    spread[offset(wider, x, y, z)] = largest;
+                }
+        values = std::move(spread);
+        size = wider;
+    }
+    return values;
+}
+
+/// Answers "is there opacity over [low, high]?" in constant time per question: what maxOpacity asks entry by
+/// entry.
+class OpacityCounts {
+public:
+    explicit OpacityCounts(const TransferTable& table) : table_(table), before_(table.entries.size() + 1) {
+        for (std::size_t i = 0; i < table.entries.size(); ++i)
+            before_[i + 1] = before_[i] + (table.entries[i].w > 0.0F ? 1U : 0U);
+    }
+    [[nodiscard]] bool any(const MinMaxGrid::Range& range) const {
+        if (std::isnan(range.low) || std::isnan(range.high)) return true;
+        if (range.low > range.high) return false;
+        const double last = static_cast<double>(table_.entries.size() - 1);
+        const double from = tablePosition(table_, double(range.low)) * last - 1.0;
+        const double to = tablePosition(table_, double(range.high)) * last + 1.0;
+        if (from < 0.0 && table_.below.w > 0.0F) return true;
+        if (to > last && table_.above.w > 0.0F) return true;
+        const auto begin = static_cast<std::size_t>(std::clamp(std::floor(from), 0.0, last));
+        const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, last));
+        return before_[end + 1] > before_[begin];
+    }
+
+private:
+    const TransferTable& table_;
+    std::vector<unsigned> before_;
+};
+
+} // namespace
+
+CellLayout CellLayout::of(const glm::ivec3& dims) {
+    CellLayout layout;
+    const auto small = (dims + 3) / 4;
+    if (static_cast<long>(small.x) * small.y * small.z > kMaxSmallCells) layout.cellSamples = 8;
+    layout.cells = (dims + layout.cellSamples - 1) / layout.cellSamples;
+    return layout;
+}
+
+std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
+                                        const glm::bvec3& periodic, const TransferTable& table) {
+    const OpacityCounts counts(table);
+    std::vector<std::uint8_t> bricks(grid.ranges.size());
+    std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
+                   [&](const MinMaxGrid::Range& range) {
+                       return counts.any(range) ? std::uint8_t{1} : std::uint8_t{0};
+                   });
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+}
+
+std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims, const glm::bvec3& periodic,
+                                  float sign) {
+    std::vector<float> bricks(grid.ranges.size());
+    std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
+                   [&](const MinMaxGrid::Range& range) {
+                       if (range.low > range.high) return -std::numeric_limits<float>::infinity();
+                       return sign > 0.0F ? range.high : -range.low;
+                   });
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+}
+
+} // namespace voxsheet

@@ -1,0 +1,35 @@
+// Which parts of a volume a transfer function can show: pure, from the min-max grid and the table.
+#pragma once
+
+#include "volume/min_max_grid.h"
+#include "volume/transfer_function.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace voxsheet {
+
+/// The level is divided into cells of `cellSamples` samples per axis: cell c covers texture coordinates
+/// [c, c + 1) * cellSamples / dims. A mark of a cell speaks for the cell and `reachSamples` around it
+/// (clamped at the ends, or wrapped on periodic axes), so that one look-up in the middle of a stretch of a
+/// ray of length <= 2 * reachSamples answers for all of the stretch.
+struct CellLayout {
+    static constexpr int reachSamples = 4;
+
+    int cellSamples = 4; ///< 4, or 8 where cells of 4 would be more than 2^24
+    glm::ivec3 cells{0}; ///< ceil(dims / cellSamples)
+
+    [[nodiscard]] static CellLayout of(const glm::ivec3& dims);
+};
+
+/// 1 where something within reach can have opacity > 0, else 0; x fastest. Conservative.
+[[nodiscard]] std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
+                                                      const glm::bvec3& periodic, const TransferTable& table);
+
+/// Largest value within reach (sign = 1), or largest negated value (sign = -1); -infinity where all is NaN.
+[[nodiscard]] std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims,
+                                                const glm::bvec3& periodic, float sign);
+
+} // namespace voxsheet

@@ -1,0 +1,27 @@
+#include "techniques/mip/mip.h"
+
+#include "stages/banded_dispatch.h"
+
+#include <string>
+
+namespace voxsheet {
+
+void drawMip(SharedStages& stages, const DrawRequest& request) {
+    const auto& [tile, volume, frame, target] = request;
+    auto defines = ClassificationStage::defines(*tile.transfer, volume);
+    defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels)));
+    defines.emplace_back("SKIP_EMPTY", stages.skipEmptySpace ? "1" : "0");
+    const auto& program = stages.programs.compute("techniques/mip/mip.glsl", defines);
+
+    stages.classification.bind(program, tile.transfer, 1.0, volume);
+    if (stages.skipEmptySpace) stages.emptySpace.bindLargest(program, volume);
+    setRayUniforms(program, frame, tile.sizePixels);
+    program.set("voxelsPerTexture", glm::vec3(volume.dims));
+    program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
+    program.set("texelSign", volume.valueScale < 0.0 ? -1.0F : 1.0F);
+    target.bindImage(0, GL_WRITE_ONLY);
+    dispatchPicture(program, tile.sizePixels,
+                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels);
+}
+
+} // namespace voxsheet

@@ -1,0 +1,18 @@
+// Direct volume rendering by a compute shader: one ray per pixel, through the pixel's centre.
+//
+// Along a ray that is inside the box (in front of the eye) over the depths [a, b], let ds be the depth over
+// which the ray advances tile.sampleDistanceVoxels in the drawn level's index frame. The path is cut into
+// floor((b - a) / ds) whole stretches from a on, and a shorter rest. Each has one sample in its middle:
+// sample i of the whole ones at a + (i + 1/2) ds. Its alpha is 1 - (1 - opacity)^(length / unitLength) with
+// the stretch's world length, the rest's own length included, so the whole path counts exactly once. Colour =
+// sum of alpha_i rgb_i prod_{j<i} (1 - alpha_j), in 32-bit floats, front to back; a ray may end once its
+// transmittance is below 1/1024.
+#pragma once
+
+#include "stages/shared_stages.h"
+
+namespace voxsheet {
+
+void drawRaycast(SharedStages& stages, const DrawRequest& request);
+
+} // namespace voxsheet

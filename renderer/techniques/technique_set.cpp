@@ -1,0 +1,91 @@
+#include "techniques/technique_set.h"
+
+#include "base/errors.h"
+#include "gpu/context.h"
+#include "stages/shared_stages.h"
+#include "techniques/mip/mip.h"
+#include "techniques/raycast/raycast.h"
+#include "techniques/slicing/slicing.h"
+
+#include <cmath>
+
+namespace voxsheet {
+namespace {
+
+constexpr int kMaxPixels = 8192;
+constexpr double kMaxSampleDistance = 64.0;
+
+bool isPositive(double value) { return value > 0.0 && std::isfinite(value); }
+
+bool isFinite(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(matrix[column][row])) return false;
+    return true;
+}
+
+void validateCamera(const CameraSpec& camera) {
+    if (!isFinite(camera.viewFromWorld) || std::abs(glm::determinant(camera.viewFromWorld)) < 1e-12)
+        throw InvalidInput("camera", "its matrix is not finite and invertible").withField("camera.target");
+    const bool perspective = camera.projection == Projection::Perspective;
+    if (perspective && !(camera.fovYDegrees > 0.0 && camera.fovYDegrees < 180.0))
+        throw InvalidInput("field of view", "it is outside (0, 180) degrees").withField("camera.fov");
+    if (!perspective && !isPositive(camera.heightWorld))
+        throw InvalidInput("height of the orthographic picture", "it is not above 0")
+            .withField("camera.distance");
+}
+
+void validate(const TileSpec& tile, const gpu::Texture& target) {
+    const auto size = tile.sizePixels;
+    if (size.x < 1 || size.y < 1 || size.x > kMaxPixels || size.y > kMaxPixels)
+        throw InvalidInput("picture size", "it is outside 1 to 8192 pixels").withField("width");
+    if (!tile.transfer || tile.transfer->entries.size() < 2)
+        throw InvalidInput("transfer function", "the tile has none").withField("transfer.map");
+    if (!isPositive(tile.unitLengthWorld))
+        throw InvalidInput("unit length of opacity", "it is not above 0").withField("transfer.unitLength");
+    if (!isPositive(tile.sampleDistanceVoxels) || tile.sampleDistanceVoxels > kMaxSampleDistance)
+        throw InvalidInput("sample distance", "it is outside (0, 64] voxels").withField("sampling.distance");
+    validateCamera(tile.camera);
+    if (target.target() != GL_TEXTURE_2D || target.internalFormat() != GL_RGBA32F ||
+        target.size() != glm::ivec3(size, 1))
+        throw InternalError("target of a tile", "it is not a 2D RGBA32F texture of the tile's size");
+}
+
+} // namespace
+
+class TechniqueSet::Implementation {
+public:
+    explicit Implementation(gpu::Context& context) : stages(context), slicing(context) {}
+
+    SharedStages stages;
+    SlicingTechnique slicing;
+};
+
+TechniqueSet::TechniqueSet(gpu::Context& context)
+    : implementation_(std::make_unique<Implementation>(context)) {}
+
+TechniqueSet::~TechniqueSet() = default;
+
+void TechniqueSet::draw(const TileSpec& tile, const ResidentVolume& volume,
+                        const gpu::Texture& targetRgba32f) {
+    validate(tile, targetRgba32f);
+    auto& stages = implementation_->stages;
+    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volume.meta->grid);
+    const DrawRequest request{tile, volume, frame, targetRgba32f};
+    switch (tile.technique) {
+    case Technique::Raycast:
+        drawRaycast(stages, request);
+        break;
+    case Technique::Mip:
+        drawMip(stages, request);
+        break;
+    case Technique::Slices:
+        implementation_->slicing.draw(stages, request);
+        break;
+    }
+    stages.context.checkErrors("drawing a tile");
+}
+
+void TechniqueSet::setEmptySpaceSkipping(bool enabled) { implementation_->stages.skipEmptySpace = enabled; }
+
+} // namespace voxsheet

@@ -1,0 +1,40 @@
+// The one door into the techniques: draws one cell's picture into a texture.
+#pragma once
+
+#include "residency/residency_manager.h"
+#include "stages/tile_spec.h"
+
+#include <memory>
+
+namespace voxsheet {
+
+namespace gpu {
+class Context;
+class Texture;
+} // namespace gpu
+
+/// Owns the programs, tables and occupancy masks that the techniques share. Belongs to the thread that owns
+/// the GL context; the context must outlive it. Programs are compiled when a technique is first used.
+class TechniqueSet {
+public:
+    explicit TechniqueSet(gpu::Context& context);
+    ~TechniqueSet();
+    TechniqueSet(const TechniqueSet&) = delete;
+    TechniqueSet& operator=(const TechniqueSet&) = delete;
+
+    /// Draws `tile` from `volume` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row 0
+    /// at the bottom of the picture. Every texel is written: colour premultiplied by alpha, no background.
+    /// The volume's level is drawn, whatever tile.level says. The call returns when the commands are queued
+    /// (llvmpipe: when compute work is done). Throws InvalidInput (with field) if the tile's numbers are out
+    /// of the ranges documented in TileSpec, GpuError if a program or a texture fails.
+    void draw(const TileSpec& tile, const ResidentVolume& volume, const gpu::Texture& targetRgba32f);
+
+    /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
+    void setEmptySpaceSkipping(bool enabled);
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace voxsheet
