@@ -1,6 +1,7 @@
 // What to draw, by value: a FrameSpec holds no pointer into the program and can be sent to another process.
 #pragma once
 
+#include "base/errors.h"
 #include "stages/tile_spec.h"
 
 #include <glm/glm.hpp>
@@ -26,13 +27,15 @@ struct TilePixels {
     std::vector<float> rgba32f;       ///< Rgba32F: size.x * size.y * 4, top row first
     int level = 0;
     double renderMs = 0.0; ///< GPU time of the draw, from timestamps; upload and readback not included
-    double uploadMs = 0.0;
+    double uploadMs = 0.0; ///< host time of conversion and upload; 0 when the volume was resident
+    double readMs = 0.0;   ///< host time of reading the volume from the provider; 0 when it was resident
     std::string error;     ///< not empty: this tile failed, there are no pixels; the other tiles are whole
+    ErrorKind errorKind = ErrorKind::Internal; ///< of `error`, when that is not empty
 };
 
 struct FrameResult {
     std::vector<TilePixels> tiles; ///< one per FrameSpec tile, in order
-    double wallMs = 0.0;           ///< from state to host pixels
+    double wallMs = 0.0;           ///< from state to host pixels; waiting in the queue not included
 };
 
 } // namespace voxsheet

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "frame/frame_spec.h"
+#include "gpu/render_device.h"
+#include "residency/residency_state.h"
 #include "volume/volume_provider.h"
 
 #include <cstdint>
@@ -13,37 +15,19 @@
 
 namespace voxsheet {
 
-struct RenderDevice {
-    std::string renderer;     ///< GL_RENDERER
-    std::string vendor;       ///< GL_VENDOR
-    std::string version;      ///< GL_VERSION
-    std::string eglPlatform;  ///< "device 0 (…)", "surfaceless Mesa"
-    std::string reason;       ///< why this one was chosen, one sentence
-    bool software = false;    ///< llvmpipe, softpipe, swrast
-    bool robust = false;      ///< a context with reset notification
-    std::uint64_t textureBudgetBytes = 0;
-    int maxTextureSize3d = 0;
-};
-
 struct RenderOptions {
     int device = -1;                      ///< --device; -1 = choose
     std::uint64_t textureBudgetBytes = 0; ///< 0 = a stated share of the device's memory (llvmpipe: of RAM)
 };
 
-struct ResidencyState {
-    std::uint64_t residentBytes = 0;
-    std::uint64_t budgetBytes = 0;
-    int textures = 0;
-    std::uint64_t uploadedBytes = 0; ///< since the start
-    std::uint64_t evictions = 0;     ///< since the start
-};
-
 enum class FramePriority { Interactive, Final, Export };
 
-/// Thread-safe. Frames of higher priority are drawn first, those of one priority in order of submission. A frame that
-/// fails as a whole (device lost) throws GpuError from its future; a tile that fails sets TilePixels::error.
+/// Thread-safe. Frames of higher priority are drawn first, those of one priority in order of submission. A
+/// frame that fails as a whole (device lost) throws GpuError from its future; a tile that fails sets
+/// TilePixels::error. A frame of higher priority goes in between two tiles of a lower one. Frames still
+/// waiting at destruction throw Cancelled.
 class RenderThread {
-  public:
+public:
     /// Throws GpuError if no usable EGL is there (the text names the package to install).
     RenderThread(std::shared_ptr<const VolumeProvider> volumes, const RenderOptions& options);
     ~RenderThread();
@@ -54,16 +38,15 @@ class RenderThread {
     /// `cancelled` is asked before each tile; when true, the future throws Cancelled.
     [[nodiscard]] std::future<FrameResult> submit(FrameSpec frame, FramePriority priority,
                                                   std::function<bool()> cancelled = {});
+    /// As of the last tile that was drawn or dataset that was forgotten.
     [[nodiscard]] ResidencyState residency() const;
-    /// Drops every texture of a dataset (it was removed or replaced).
+    /// Drops every texture of a dataset (it was removed or replaced). Returns at once; takes effect before
+    /// the next tile.
     void forget(const std::string& dataset);
 
-  private:
+private:
     class Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
-
-/// EGL devices of this machine, for `--device` and `GET /api/v1`; one line each.
-[[nodiscard]] std::vector<std::string> listRenderDevices();
 
 } // namespace voxsheet

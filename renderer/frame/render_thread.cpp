@@ -1,0 +1,280 @@
+#include "frame/render_thread.h"
+
+#include "base/errors.h"
+#include "base/log.h"
+#include "frame/frame_queue.h"
+#include "frame/tile_renderer.h"
+
+#include <deque>
+#include <thread>
+#include <utility>
+
+namespace voxsheet {
+
+namespace {
+
+/// Tiles drawn but not copied back: one is mapped while the next is drawn.
+constexpr std::size_t kTilesInFlight = 1;
+
+/// The device is gone, and with it every texture and program.
+struct DeviceLost {
+    std::exception_ptr error;
+    std::shared_ptr<FrameJob> job; ///< the frame during which it was noticed
+};
+
+VolumeKey volumeOf(const TileSpec& tile) { return {tile.dataset, tile.field, tile.step, tile.level}; }
+
+} // namespace
+
+class RenderThread::Implementation {
+public:
+    Implementation(std::shared_ptr<const VolumeProvider> volumes, const RenderOptions& options)
+        : volumes_(std::move(volumes)), options_(options) {
+        std::promise<RenderDevice> started;
+        auto device = started.get_future();
+        thread_ = std::thread([this, started = std::move(started)]() mutable { run(std::move(started)); });
+        try {
+            device_ = device.get();
+        } catch (...) {
+            thread_.join();
+            throw;
+        }
+    }
+
+    ~Implementation() {
+        queue_.stop();
+        thread_.join();
+    }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    [[nodiscard]] const RenderDevice& device() const { return device_; }
+
+    [[nodiscard]] ResidencyState residency() const {
+        const std::scoped_lock lock(stateMutex_);
+        return state_;
+    }
+
+    [[nodiscard]] std::future<FrameResult> submit(FrameSpec frame, FramePriority priority,
+                                                  std::function<bool()> cancelled) {
+        auto job = std::make_shared<FrameJob>();
+        job->result.tiles.resize(frame.tiles.size());
+        job->issued.resize(frame.tiles.size());
+        job->frame = std::move(frame);
+        job->priority = priority;
+        job->cancelled = std::move(cancelled);
+        auto result = job->promise.get_future();
+        queue_.push(std::move(job));
+        return result;
+    }
+
+    void forget(std::string dataset) {
+        queue_.pushCommand([this, dataset = std::move(dataset)] {
+            if (!renderer_) return; // lost: nothing is resident
+            renderer_->residency().forget(dataset);
+            publishState();
+        });
+    }
+
+private:
+    struct InFlight {
+        std::shared_ptr<FrameJob> job;
+        std::size_t tile;
+        std::unique_ptr<TileInFlight> drawing;
+    };
+
+    void run(std::promise<RenderDevice> started) {
+        try {
+            startRenderer();
+        } catch (...) {
+            started.set_exception(std::current_exception());
+            return;
+        }
+        started.set_value(renderer_->device());
+        while (workOnce()) {
+        }
+        for (const auto& job : queue_.takeRemaining()) {
+            job->fail(std::make_exception_ptr(Cancelled("the frame", "the renderer is shutting down")));
+        }
+        inFlight_.clear();
+        renderer_.reset();
+    }
+
+    /// Returns false when the thread is to end.
+    bool workOnce() {
+        const FrameQueue::Work work = queue_.next(inFlight_.empty());
+        for (const auto& command : work.commands)
+            command();
+        try {
+            if (work.job) {
+                advance(work.job);
+                while (inFlight_.size() > kTilesInFlight)
+                    finishOldest();
+            } else if (!inFlight_.empty()) {
+                finishOldest();
+            }
+        } catch (const DeviceLost& lost) {
+            giveUpDevice(lost);
+        }
+        return !(work.stopping && inFlight_.empty());
+    }
+
+    void startRenderer() {
+        renderer_ = std::make_unique<TileRenderer>(volumes_, options_.device, options_.textureBudgetBytes);
+        publishState();
+    }
+
+    void publishState() {
+        const std::scoped_lock lock(stateMutex_);
+        state_ = renderer_ ? renderer_->residency().state() : ResidencyState{};
+    }
+
+    /// Draws the job's next tile, or ends the job.
+    void advance(const std::shared_ptr<FrameJob>& job) {
+        if (!job->begun) job->begun = std::chrono::steady_clock::now();
+        if (job->settled || isCancelled(*job)) {
+            job->fail(std::make_exception_ptr(Cancelled("the frame", "it is no longer wanted")));
+            queue_.remove(job);
+            return;
+        }
+        if (!renderer_) restartRenderer(job);
+        if (job->issuedCount < job->frame.tiles.size()) beginTile(job, nextTile(*job));
+        if (job->issuedCount == job->frame.tiles.size()) {
+            queue_.remove(job);
+            job->succeedIfFinished();
+        }
+    }
+
+    static bool isCancelled(FrameJob& job) {
+        try {
+            return job.cancelled && job.cancelled();
+        } catch (...) {
+            job.fail(std::current_exception());
+            return true;
+        }
+    }
+
+    /// Tiles whose volume is resident come first: with a working set larger than the budget,
+    /// least-recently-used eviction in a fixed order would throw out every volume just before it is needed.
+    [[nodiscard]] std::size_t nextTile(const FrameJob& job) const {
+        std::size_t first = job.issued.size();
+        for (std::size_t tile = 0; tile < job.issued.size(); ++tile) {
+            if (job.issued[tile]) continue;
+            if (renderer_->residency().isResident(volumeOf(job.frame.tiles[tile]))) return tile;
+            if (first == job.issued.size()) first = tile;
+        }
+        return first;
+    }
+
+    void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
+        job->issued[tile] = true;
+        ++job->issuedCount;
+        try {
+            inFlight_.push_back({job, tile, renderer_->begin(job->frame.tiles[tile], job->frame.format)});
+        } catch (...) {
+            failTile(job, tile);
+        }
+        publishState();
+    }
+
+    void finishOldest() {
+        InFlight oldest = std::move(inFlight_.front());
+        inFlight_.pop_front();
+        try {
+            oldest.job->result.tiles[oldest.tile] = renderer_->finish(std::move(oldest.drawing));
+            ++oldest.job->finishedCount;
+        } catch (...) {
+            failTile(oldest.job, oldest.tile);
+        }
+        if (oldest.job->finishedCount == oldest.job->frame.tiles.size()) throwIfLost(oldest.job);
+        oldest.job->succeedIfFinished();
+    }
+
+    /// Called in a catch block: keeps the error with the tile, unless the device is lost.
+    void failTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
+        TilePixels& pixels = job->result.tiles[tile];
+        pixels = {};
+        pixels.size = job->frame.tiles[tile].sizePixels;
+        pixels.level = job->frame.tiles[tile].level;
+        ++job->finishedCount;
+        try {
+            throw;
+        } catch (const Error& error) {
+            pixels.error = error.what();
+            pixels.errorKind = error.kind();
+        } catch (const std::bad_alloc&) {
+            pixels.error =
+                "the tile: the machine has no memory left; draw a coarser level or a smaller picture";
+            pixels.errorKind = ErrorKind::LimitExceeded;
+        } catch (const std::exception& error) {
+            pixels.error = std::string("the tile: ") + error.what();
+        }
+        throwIfLost(job);
+    }
+
+    void throwIfLost(const std::shared_ptr<FrameJob>& job) {
+        try {
+            renderer_->checkReset();
+        } catch (const GpuError&) {
+            throw DeviceLost{std::current_exception(), job};
+        }
+    }
+
+    /// Fails the frames that were being drawn. The next frame starts afresh, on a new context.
+    void giveUpDevice(const DeviceLost& lost) {
+        try {
+            std::rethrow_exception(lost.error);
+        } catch (const std::exception& error) {
+            logError(error.what());
+        }
+        lost.job->fail(lost.error);
+        queue_.remove(lost.job);
+        for (const InFlight& drawing : inFlight_) {
+            drawing.job->fail(lost.error);
+            queue_.remove(drawing.job);
+        }
+        inFlight_.clear();
+        renderer_.reset();
+        publishState();
+    }
+
+    void restartRenderer(const std::shared_ptr<FrameJob>& job) {
+        try {
+            startRenderer();
+        } catch (...) {
+            renderer_.reset();
+            throw DeviceLost{std::current_exception(), job};
+        }
+    }
+
+    std::shared_ptr<const VolumeProvider> volumes_;
+    RenderOptions options_;
+    RenderDevice device_;
+    FrameQueue queue_;
+    mutable std::mutex stateMutex_;
+    ResidencyState state_;
+
+    // Of the render thread alone.
+    std::unique_ptr<TileRenderer> renderer_; ///< null after the device was lost
+    std::deque<InFlight> inFlight_;
+
+    std::thread thread_;
+};
+
+RenderThread::RenderThread(std::shared_ptr<const VolumeProvider> volumes, const RenderOptions& options)
+    : implementation_(std::make_unique<Implementation>(std::move(volumes), options)) {}
+
+RenderThread::~RenderThread() = default;
+
+const RenderDevice& RenderThread::device() const { return implementation_->device(); }
+
+std::future<FrameResult> RenderThread::submit(FrameSpec frame, FramePriority priority,
+                                              std::function<bool()> cancelled) {
+    return implementation_->submit(std::move(frame), priority, std::move(cancelled));
+}
+
+ResidencyState RenderThread::residency() const { return implementation_->residency(); }
+
+void RenderThread::forget(const std::string& dataset) { implementation_->forget(dataset); }
+
+} // namespace voxsheet

@@ -1,0 +1,120 @@
+#include "frame/tile_renderer.h"
+
+#include "base/errors.h"
+#include "base/log.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace voxsheet {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMaxTilePixels = 8192; ///< per axis, as TileSpec::sizePixels documents
+/// Slots beyond this size are not kept: a poster would pin its memory for ever.
+constexpr std::size_t kKeptSlotBytes = std::size_t{32} << 20;
+constexpr std::size_t kKeptSlots = 2;
+
+void checkSize(glm::ivec2 size) {
+    if (size.x >= 1 && size.y >= 1 && size.x <= kMaxTilePixels && size.y <= kMaxTilePixels) return;
+    throw InvalidInput("a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + " pixels",
+                       "each side must have 1 to " + std::to_string(kMaxTilePixels) + " pixels")
+        .withField("width");
+}
+
+double millisecondsSince(Clock::time_point begun) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+}
+
+RenderDevice withBudget(RenderDevice device, std::uint64_t budgetBytes) {
+    if (budgetBytes > 0) device.textureBudgetBytes = budgetBytes;
+    return device;
+}
+
+} // namespace
+
+TileRenderer::TileRenderer(std::shared_ptr<const VolumeProvider> volumes, int device,
+                           std::uint64_t textureBudgetBytes)
+    : context_(device), device_(withBudget(context_.device(), textureBudgetBytes)),
+      residency_(context_, std::move(volumes), device_.textureBudgetBytes), techniques_(context_),
+      resolver_(context_), targets_(context_) {}
+
+std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
+    const auto fits = [&](const auto& slot) { return slot->readback.capacityBytes() >= bytes; };
+    const auto slot = std::find_if(slots_.begin(), slots_.end(), fits);
+    if (slot != slots_.end()) {
+        auto taken = std::move(*slot);
+        slots_.erase(slot);
+        return taken;
+    }
+    return std::make_unique<TileInFlight>(TileInFlight{gpu::TimerQuery(context_),
+                                                       gpu::Buffer(context_, bytes, 0),
+                                                       gpu::PixelReadback(context_, bytes),
+                                                       {},
+                                                       PixelFormat::Rgba8,
+                                                       0,
+                                                       {}});
+}
+
+std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, PixelFormat format) {
+    checkSize(tile.sizePixels);
+    const std::size_t bytes = static_cast<std::size_t>(tile.sizePixels.x) *
+                              static_cast<std::size_t>(tile.sizePixels.y) * pixelBytes(format);
+    const VolumeLease lease = residency_.acquire({tile.dataset, tile.field, tile.step, tile.level});
+    const gpu::Texture& target = targets_.acquire(tile.sizePixels);
+
+    auto slot = takeSlot(bytes);
+    slot->pixels = {};
+    slot->pixels.size = tile.sizePixels;
+    slot->pixels.level = tile.level;
+    slot->pixels.uploadMs = lease.uploadMs;
+    slot->pixels.readMs = lease.readMs;
+    slot->format = format;
+    slot->bytes = bytes;
+    slot->begun = Clock::now();
+    slot->timer.begin();
+    techniques_.draw(tile, lease.volume(), target);
+    slot->timer.end();
+    resolver_.resolve(target, tile.background, format, slot->packed);
+    slot->readback.start(slot->packed, bytes);
+    context_.checkErrors("drawing a tile");
+    return slot;
+}
+
+TilePixels TileRenderer::finish(std::unique_ptr<TileInFlight> tile) {
+    const std::span<const std::byte> bytes = tile->readback.finish();
+    TilePixels pixels = std::move(tile->pixels);
+    pixels.renderMs = plausibleRenderMs(tile->timer.milliseconds(), millisecondsSince(tile->begun));
+    const std::size_t values =
+        static_cast<std::size_t>(pixels.size.x) * static_cast<std::size_t>(pixels.size.y) * 4;
+    if (tile->format == PixelFormat::Rgba8) {
+        pixels.rgba8.resize(values);
+        std::memcpy(pixels.rgba8.data(), bytes.data(), bytes.size());
+    } else {
+        pixels.rgba32f.resize(values);
+        std::memcpy(pixels.rgba32f.data(), bytes.data(), bytes.size());
+    }
+    if (tile->readback.capacityBytes() <= kKeptSlotBytes && slots_.size() < kKeptSlots) {
+        slots_.push_back(std::move(tile));
+    }
+    return pixels;
+}
+
+double TileRenderer::plausibleRenderMs(double gpuMs, double wallMs) {
+    // The GPU cannot have drawn for longer than we waited, nor in no time at all; a driver that says so has a
+    // broken timer, and the host's clock is the better witness.
+    constexpr double kClockSlackMs = 1.0;
+    if (gpuMs > 0.0 && gpuMs <= wallMs + kClockSlackMs) return gpuMs;
+    if (!warnedOfTimer_) {
+        warnedOfTimer_ = true;
+        logWarning("the GPU timer reads " + std::to_string(gpuMs) + " ms for a tile that took " +
+                   std::to_string(wallMs) +
+                   " ms on the host's clock: render times are the host's from here on");
+    }
+    return wallMs;
+}
+
+} // namespace voxsheet

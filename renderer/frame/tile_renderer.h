@@ -1,0 +1,62 @@
+// One tile from spec to host pixels, in two halves so that the next tile is drawn while this one is copied
+// back.
+#pragma once
+
+#include "frame/frame_spec.h"
+#include "frame/target_pool.h"
+#include "frame/tile_resolver.h"
+#include "gpu/context.h"
+#include "gpu/pixel_readback.h"
+#include "gpu/timer_query.h"
+#include "residency/residency_manager.h"
+#include "techniques/technique_set.h"
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+namespace voxsheet {
+
+/// A tile that is being drawn and copied back.
+struct TileInFlight {
+    gpu::TimerQuery timer;
+    gpu::Buffer packed;
+    gpu::PixelReadback readback;
+    TilePixels pixels; ///< all but the pixels and the render time
+    PixelFormat format = PixelFormat::Rgba8;
+    std::size_t bytes = 0;
+    std::chrono::steady_clock::time_point begun;
+};
+
+/// Everything that lives on the GPU. Belongs to the thread that made it.
+class TileRenderer {
+public:
+    /// \param textureBudgetBytes  0 = the device's default
+    TileRenderer(std::shared_ptr<const VolumeProvider> volumes, int device, std::uint64_t textureBudgetBytes);
+
+    [[nodiscard]] const RenderDevice& device() const { return device_; }
+    [[nodiscard]] ResidencyManager& residency() { return residency_; }
+
+    /// Makes the volume resident and queues drawing, resolving and readback. Throws what the tile is at fault
+    /// for.
+    [[nodiscard]] std::unique_ptr<TileInFlight> begin(const TileSpec& tile, PixelFormat format);
+    /// Waits for the pixels. Throws GpuError.
+    [[nodiscard]] TilePixels finish(std::unique_ptr<TileInFlight> tile);
+    /// Throws GpuError when the GPU was reset.
+    void checkReset() const { context_.checkReset(); }
+
+private:
+    [[nodiscard]] std::unique_ptr<TileInFlight> takeSlot(std::size_t bytes);
+    [[nodiscard]] double plausibleRenderMs(double gpuMs, double wallMs);
+
+    gpu::Context context_;
+    RenderDevice device_;
+    ResidencyManager residency_;
+    TechniqueSet techniques_;
+    TileResolver resolver_;
+    TargetPool targets_;
+    std::vector<std::unique_ptr<TileInFlight>> slots_; ///< idle ones
+    bool warnedOfTimer_ = false;
+};
+
+} // namespace voxsheet
