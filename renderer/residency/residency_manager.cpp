@@ -53,7 +53,7 @@ VolumeLease ResidencyManager::acquire(const VolumeKey& key) {
 }
 
 VolumeLease ResidencyManager::load(const VolumeKey& key) {
-    VolumeUpload upload(*provider_, key, !context_.workarounds().r8AsR16 && !context_.device().software);
+    VolumeUpload upload(*provider_, key, !context_.workarounds().r8AsR16);
     makeRoom(upload.bytes());
     auto entry = std::make_shared<Entry>();
     entry->texture.emplace(createTexture(upload));

@@ -1,0 +1,94 @@
+#include "frame/tile_resolver.h"
+
+#include "frame/target_pool.h"
+#include "gl_fixture.h"
+#include "gpu/pixel_readback.h"
+#include "techniques/technique_set.h"
+
+#include <cstring>
+
+namespace voxsheet {
+namespace {
+
+using Resolver = GlTest;
+
+/// Writes each texel's own coordinates, so that a misplaced row shows.
+void writeCoordinates(gpu::Context& context, const gpu::Texture& texture) {
+    static constexpr const char* kText = R"(#version 450 core
+        layout(local_size_x = 8, local_size_y = 8) in;
+        layout(rgba32f, binding = 0) writeonly uniform image2D target;
+        void main() {
+            ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+            imageStore(target, p, vec4(p, 7.0, 1.0)); // stores beyond the texture are dropped
+        })";
+    const EmbeddedFile files[] = {{"coordinates.glsl", kText, kText + std::strlen(kText)}};
+    const auto program = gpu::Program::compute(context, gpu::expandShader(files, "coordinates.glsl"));
+    texture.bindImage(0, GL_WRITE_ONLY);
+    program.dispatch({(texture.size().x + 7) / 8, (texture.size().y + 7) / 8, 1});
+    gpu::storageBarrier();
+}
+
+TEST_F(Resolver, PicturesLargerThanAStorageBlockComeInBands) {
+    const glm::ivec2 size(2999, 2901);
+    const std::size_t bytes = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 16;
+    ASSERT_GT(bytes, std::size_t{1} << 27)
+        << "above the least that OpenGL guarantees, which is llvmpipe's limit";
+    const TileResolver resolver(context());
+    const gpu::Texture drawn(context(), GL_TEXTURE_2D, GL_RGBA32F, {size, 1});
+    writeCoordinates(context(), drawn);
+    const gpu::Buffer packed(context(), bytes, 0);
+    resolver.resolve(drawn, glm::vec4(1.0F), PixelFormat::Rgba32F, packed);
+    gpu::PixelReadback readback(context(), bytes);
+    readback.start(packed, bytes);
+    const auto result = readback.finish();
+    for (int y = 0; y < size.y; ++y) {
+        for (const int x : {0, 1, size.x - 1}) {
+            glm::vec4 pixel;
+            const auto index =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+            std::memcpy(&pixel, result.data() + index * 16, 16);
+            ASSERT_EQ(pixel, glm::vec4(x, size.y - 1 - y, 7, 1)) << x << ", " << y;
+        }
+    }
+}
+
+TEST_F(Resolver, DrawingLeavesNoGlObjectsBehind) {
+    auto provider = std::make_shared<MemoryVolumeProvider>();
+    for (const char* key : {"a", "b"}) {
+        addVolume(*provider, key, glm::ivec3(20), ScalarType::F32,
+                  [](int x, int y, int z) { return x + y + z; });
+    }
+    const TileResolver resolver(context());
+    TargetPool targets(context());
+    ResidencyManager residency(context(), provider, 1 << 20);
+    TechniqueSet techniques(context());
+    for (int round = 0; round < 3; ++round) {
+        for (const char* key : {"a", "b"}) {
+            for (const Technique technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
+                TileSpec tile = frontTile(key, 20, 57.0, 16 + 8 * round);
+                tile.technique = technique;
+                const VolumeLease lease = residency.acquire({key, 0, 0, 0});
+                techniques.draw(tile, lease.volume(), targets.acquire(tile.sizePixels));
+            }
+        }
+        residency.forget("a");
+    }
+    EXPECT_GT(context().counts().textures, 2);
+    EXPECT_EQ(residency.state().textures, 1);
+    // TearDown finds every count at 0 once these are gone.
+}
+
+TEST_F(Resolver, TargetsAreReusedBySize) {
+    TargetPool targets(context());
+    const GLuint first = targets.acquire({64, 48}).id();
+    (void)targets.acquire({32, 48});
+    EXPECT_EQ(targets.acquire({64, 48}).id(), first);
+    EXPECT_EQ(context().counts().textures, 2);
+    // 2048 x 2048 takes 64 MiB: with another one in use, nothing else is kept.
+    (void)targets.acquire({2048, 2048});
+    (void)targets.acquire({2048, 2047});
+    EXPECT_EQ(context().counts().textures, 2);
+}
+
+} // namespace
+} // namespace voxsheet
