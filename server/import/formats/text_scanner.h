@@ -1,0 +1,45 @@
+// Lines and words of a long text file, decompressed on the way, without holding more than a block of it.
+#pragma once
+
+#include "import/formats/byte_stream.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxsheet::import {
+
+class TextScanner {
+public:
+    /// `name` is the subject of errors.
+    TextScanner(std::unique_ptr<ByteStream> stream, std::string name);
+
+    /// The next line without its end; valid until the next call. nullopt at the end of the file. Throws
+    /// InvalidInput if a line is longer than 64 KiB.
+    [[nodiscard]] std::optional<std::string_view> line();
+    /// The next word between blanks and line ends; valid until the next call. Empty at the end of the file.
+    /// Throws InvalidInput if a word is longer than 64 KiB.
+    [[nodiscard]] std::string_view word();
+    /// Passes over up to `count` words; returns how many there were.
+    [[nodiscard]] std::uint64_t skipWords(std::uint64_t count);
+
+    [[nodiscard]] std::uint64_t bytesRead() const {
+        return bytesRead_;
+    } ///< decompressed, blocks fetched so far
+
+private:
+    bool fetch();
+    [[nodiscard]] std::string_view unread() const { return {block_.data() + begin_, end_ - begin_}; }
+
+    std::unique_ptr<ByteStream> stream_;
+    std::string name_;
+    std::vector<char> block_;
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+    std::uint64_t bytesRead_ = 0;
+};
+
+} // namespace voxsheet::import
