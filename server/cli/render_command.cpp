@@ -98,8 +98,7 @@ int reportCells(const engine::Engine& engine, const std::string& sheetName) {
     int failed = 0;
     for (const auto& status : engine.cellStatuses(*engine.snapshot(), sheetName)) {
         if (status.state != engine::CellState::Error) continue;
-        reportFailure("cell " + sheet::formatAddress(status.cell) + ": " + status.code + " " +
-                      status.message);
+        reportFailure("cell " + sheet::addressName(status.cell) + ": " + status.code + " " + status.message);
         ++failed;
     }
     return failed;
@@ -111,7 +110,7 @@ int runRender(const RenderArguments& arguments) {
     if (!arguments.size.empty()) request.sizePixels = parseSize(arguments.size);
     if (!arguments.cell.empty()) {
         const auto address = sheet::parseAddress(arguments.cell);
-        request.range = sheet::Range{address, address};
+        request.range = sheet::AddressRange{address, address};
     }
     request.title = arguments.title;
     engine::Engine engine(engineOptions(arguments.engine));

@@ -64,8 +64,8 @@ std::string encodeJpeg(const TilePixels& pixels, const EncodeSettings& settings)
     std::string out(tjBufSize(pixels.size.x, pixels.size.y, subsampling), '\0');
     auto* buffer = reinterpret_cast<unsigned char*>(out.data());
     auto bytes = static_cast<unsigned long>(out.size());
-    if (tjCompress2(compressor.get(), pixels.rgba8.data(), pixels.size.x, 0, pixels.size.y, TJPF_RGBX, &buffer, &bytes,
-                    subsampling, settings.quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0)
+    if (tjCompress2(compressor.get(), pixels.rgba8.data(), pixels.size.x, 0, pixels.size.y, TJPF_RGBX,
+                    &buffer, &bytes, subsampling, settings.quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0)
         throw InternalError("JPEG encoder", tjGetErrorStr2(compressor.get()));
     out.resize(bytes);
     return out;
@@ -75,11 +75,13 @@ void appendPngBytes(png_structp png, png_bytep data, png_size_t count) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), count);
 }
 
-[[noreturn]] void throwPngError(png_structp /*png*/, png_const_charp text) { throw InternalError("PNG encoder", text); }
+[[noreturn]] void throwPngError(png_structp /*png*/, png_const_charp text) {
+    throw InternalError("PNG encoder", text);
+}
 
 /// Owns the pair of libpng structures; its error handler throws, so no setjmp is needed.
 class PngWriter {
-  public:
+public:
     PngWriter() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, &throwPngError, nullptr)) {
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
         if (info_ == nullptr) throw InternalError("PNG encoder", "could not be created");
@@ -90,7 +92,7 @@ class PngWriter {
     [[nodiscard]] png_structp png() const { return png_; }
     [[nodiscard]] png_infop info() const { return info_; }
 
-  private:
+private:
     png_structp png_;
     png_infop info_ = nullptr;
 };
@@ -104,10 +106,12 @@ std::string encodePng(const TilePixels& pixels, const EncodeSettings& settings) 
     const PngWriter writer;
     png_set_write_fn(writer.png(), &out, &appendPngBytes, nullptr);
     png_set_IHDR(writer.png(), writer.info(), static_cast<png_uint_32>(pixels.size.x),
-                 static_cast<png_uint_32>(pixels.size.y), 8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 static_cast<png_uint_32>(pixels.size.y), 8,
+                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(writer.png(), writer.info(), PNG_sRGB_INTENT_PERCEPTUAL);
-    // One filter and level 1: measured several times faster than libpng's adaptive default, for a quarter more bytes.
+    // One filter and level 1: measured several times faster than libpng's adaptive default, for a quarter
+    // more bytes.
     if (settings.fast) {
         png_set_compression_level(writer.png(), 1);
         png_set_filter(writer.png(), PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
@@ -149,20 +153,28 @@ std::string encodeWebp(const TilePixels& pixels, const EncodeSettings& settings)
 } // namespace
 
 std::string encodeImage(const TilePixels& pixels, const EncodeSettings& settings) {
-    const auto expected = static_cast<std::size_t>(pixels.size.x) * static_cast<std::size_t>(pixels.size.y) * 4;
+    const auto expected =
+        static_cast<std::size_t>(pixels.size.x) * static_cast<std::size_t>(pixels.size.y) * 4;
     if (pixels.size.x < 1 || pixels.size.y < 1 || pixels.rgba8.size() != expected)
         throw InvalidInput("picture to encode", "its buffer does not fit its size");
     switch (settings.format) {
-    case ImageFormat::Jpeg: return encodeJpeg(pixels, settings);
-    case ImageFormat::Webp: return encodeWebp(pixels, settings);
-    case ImageFormat::Png: break;
+    case ImageFormat::Jpeg:
+        return encodeJpeg(pixels, settings);
+    case ImageFormat::Webp:
+        return encodeWebp(pixels, settings);
+    case ImageFormat::Png:
+        break;
     }
     return encodePng(pixels, settings);
 }
 
-const char* mediaType(ImageFormat format) noexcept { return kFormats[static_cast<std::size_t>(format)].media; }
+const char* mediaType(ImageFormat format) noexcept {
+    return kFormats[static_cast<std::size_t>(format)].media;
+}
 
-const char* formatName(ImageFormat format) noexcept { return kFormats[static_cast<std::size_t>(format)].name; }
+const char* formatName(ImageFormat format) noexcept {
+    return kFormats[static_cast<std::size_t>(format)].name;
+}
 
 std::optional<ImageFormat> formatFromExtension(std::string_view extension) noexcept {
     if (extension == "jpg") return ImageFormat::Jpeg;

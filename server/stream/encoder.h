@@ -14,15 +14,16 @@ enum class ImageFormat { Jpeg, Png, Webp };
 
 struct EncodeSettings {
     ImageFormat format = ImageFormat::Png;
-    int quality = 90;              ///< [1, 100]; JPEG and lossy WebP
-    bool lossless = true;          ///< WebP only; PNG always is, JPEG never
-    bool subsampleChroma = false;  ///< JPEG: 4:2:0 instead of 4:4:4
-    bool fast = false;             ///< PNG, WebP: speed before size
+    int quality = 90;             ///< [1, 100]; JPEG and lossy WebP
+    bool lossless = true;         ///< WebP only; PNG always is, JPEG never
+    bool subsampleChroma = false; ///< JPEG: 4:2:0 instead of 4:4:4
+    bool fast = false;            ///< PNG, WebP: speed before size
 };
 
-/// Encodes rgba8 (size.x * size.y * 4 bytes, top row first, premultiplied alpha). PNG is tagged sRGB and written with
-/// straight alpha; a picture whose alpha is 255 everywhere is written as RGB. JPEG drops alpha (over black).
-/// Thread-safe. Throws InvalidInput if the buffer does not fit its size, InternalError if the library fails.
+/// Encodes rgba8 (size.x * size.y * 4 bytes, top row first, premultiplied alpha). PNG is tagged sRGB and
+/// written with straight alpha; a picture whose alpha is 255 everywhere is written as RGB. JPEG drops alpha
+/// (over black). Thread-safe. Throws InvalidInput if the buffer does not fit its size, InternalError if the
+/// library fails.
 [[nodiscard]] std::string encodeImage(const TilePixels& pixels, const EncodeSettings& settings);
 
 /// "image/png", …

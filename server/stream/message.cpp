@@ -9,7 +9,8 @@ namespace voxsheet::stream {
 namespace {
 
 void appendU32(std::string& out, std::size_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>((value >> shift) & 0xFFU));
+    for (unsigned shift = 0; shift < 32; shift += 8)
+        out.push_back(static_cast<char>((value >> shift) & 0xFFU));
 }
 
 std::size_t readU32(std::string_view bytes, std::size_t at) {

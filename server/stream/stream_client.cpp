@@ -13,11 +13,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kRestAfter = 150ms;         ///< no change for so long: final pictures
-constexpr auto kPingAfter = 5s;            ///< silence that a ping breaks
-constexpr auto kDatasetsEvery = 250ms;     ///< at most so often
+constexpr auto kRestAfter = 150ms;     ///< no change for so long: final pictures
+constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
+constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
-constexpr double kFinalChunkMs = 120.0; ///< final pictures are sent in chunks of about this time, so that a new gesture is not kept waiting
+constexpr double kFinalChunkMs = 120.0; ///< final pictures are sent in chunks of about this time, so that a
+                                        ///< new gesture is not kept waiting
 
 double milliseconds(std::chrono::steady_clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -34,7 +35,8 @@ std::string cellState(const engine::PreparedTile& tile) {
 } // namespace
 
 StreamClient::StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles)
-    : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles), version_(engine.version()) {}
+    : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles),
+      version_(engine.version()) {}
 
 void StreamClient::update(const StreamUpdate& update) {
     const std::lock_guard lock(mutex_);
@@ -124,7 +126,8 @@ std::optional<std::string> StreamClient::next() {
             const bool drawn = finished || draw(work, view.id);
             if (drawn && !finished) emit(work, view, milliseconds(Clock::now() - start));
             lock.lock();
-            // More to do: the pictures in between were not final ones, or only a chunk of the final ones was drawn.
+            // More to do: the pictures in between were not final ones, or only a chunk of the final ones was
+            // drawn.
             if (!finished) dirty_ = true;
             if (finished && interactive) {
                 wake_.wait_until(lock, lastChange_ + kRestAfter, [this] { return closed_ || dirty_; });
@@ -132,8 +135,9 @@ std::optional<std::string> StreamClient::next() {
             }
             continue;
         }
-        const auto deadline = datasetsChanged_ ? std::min(silentSince + kPingAfter, lastDatasets_ + kDatasetsEvery)
-                                               : silentSince + kPingAfter;
+        const auto deadline = datasetsChanged_
+                                  ? std::min(silentSince + kPingAfter, lastDatasets_ + kDatasetsEvery)
+                                  : silentSince + kPingAfter;
         wake_.wait_until(lock, deadline);
     }
 }
@@ -154,7 +158,8 @@ void StreamClient::addTile(Plan& plan, const sheet::Workbook& workbook, const Cl
     auto prepared = engine_.prepareTile(workbook, sheet_, tile.cell, view.overrides, full);
     const auto shown = shown_.find(tile.cell);
     if (!prepared.spec) {
-        if (shown == shown_.end() || shown->second.state != cellState(prepared)) plan.notices.push_back(std::move(prepared));
+        if (shown == shown_.end() || shown->second.state != cellState(prepared))
+            plan.notices.push_back(std::move(prepared));
         return;
     }
     ++plan.visibleCells;
@@ -169,7 +174,8 @@ StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) 
     Plan plan;
     plan.interactive = interactive;
     const auto workbook = engine_.snapshot();
-    for (const auto& tile : view.tiles) addTile(plan, *workbook, view, tile);
+    for (const auto& tile : view.tiles)
+        addTile(plan, *workbook, view, tile);
     for (auto& pending : plan.tiles)
         pending.image = tiles_.cached(encodedIdentity(pending.prepared.identity, encoding(false)));
     for (const auto& pending : plan.tiles)
@@ -195,7 +201,8 @@ StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) 
         reduced.sizePixels = scaled(pending.tile.sizePixels, kQualitySteps[plan.step].scale);
         pending.prepared = engine_.prepareTile(*workbook, sheet_, pending.tile.cell, view.overrides, reduced);
         const auto shown = shown_.find(pending.tile.cell);
-        return !pending.prepared.spec || (shown != shown_.end() && shown->second.identity == pending.prepared.identity);
+        return !pending.prepared.spec ||
+               (shown != shown_.end() && shown->second.identity == pending.prepared.identity);
     });
     return plan;
 }
@@ -216,7 +223,10 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
     const auto start = Clock::now();
     FrameResult frame;
     try {
-        frame = engine_.render(specs, plan.interactive ? FramePriority::Interactive : FramePriority::Final, needless).get();
+        frame =
+            engine_
+                .render(specs, plan.interactive ? FramePriority::Interactive : FramePriority::Final, needless)
+                .get();
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Cancelled) throw;
         return false;
@@ -258,9 +268,12 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
     std::size_t index = 0;
     auto header = [&](const sheet::Address& cell, const char* type) {
         ++index;
-        return nlohmann::json{{"type", type},        {"seq", ++sequence_},
-                              {"frame", frame_},     {"view", view.id},
-                              {"cell", sheet::formatAddress(cell)}, {"frameEnd", index == count}};
+        return nlohmann::json{{"type", type},
+                              {"seq", ++sequence_},
+                              {"frame", frame_},
+                              {"view", view.id},
+                              {"cell", sheet::addressName(cell)},
+                              {"frameEnd", index == count}};
     };
     auto notice = [&](const engine::PreparedTile& tile) {
         auto json = header(tile.cell, "cell");
@@ -271,7 +284,8 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         push(json);
         shown_[tile.cell] = Shown{{}, cellState(tile), false};
     };
-    for (const auto& tile : plan.notices) notice(tile);
+    for (const auto& tile : plan.notices)
+        notice(tile);
     std::size_t tiles = 0;
     for (const auto& pending : plan.tiles) {
         if (!pending.image) {

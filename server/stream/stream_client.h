@@ -16,7 +16,7 @@ namespace voxsheet::stream {
 
 /// next() belongs to one thread (the writer); every other member may be called from any thread.
 class StreamClient {
-  public:
+public:
     StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles);
 
     void update(const StreamUpdate& update);
@@ -26,7 +26,7 @@ class StreamClient {
     [[nodiscard]] ClientView view() const;
     [[nodiscard]] StreamStatistics statistics() const;
 
-  private:
+private:
     using Clock = std::chrono::steady_clock;
 
     /// What the page shows in one cell.
@@ -54,7 +54,8 @@ class StreamClient {
 
     void queueNotices();
     [[nodiscard]] Plan plan(const ClientView& view, bool interactive);
-    void addTile(Plan& plan, const sheet::Workbook& workbook, const ClientView& view, const ViewTile& tile) const;
+    void addTile(Plan& plan, const sheet::Workbook& workbook, const ClientView& view,
+                 const ViewTile& tile) const;
     [[nodiscard]] EncodeSettings encoding(bool interactive) const;
     /// Draws and encodes; false when a newer view made the work needless.
     bool draw(Plan& plan, std::uint64_t viewId);

@@ -15,7 +15,8 @@ std::string randomId() {
     std::string id;
     for (int word = 0; word < 4; ++word) {
         const auto bits = source();
-        for (unsigned shift = 0; shift < 32; shift += 4) id.push_back("0123456789abcdef"[(bits >> shift) & 15U]);
+        for (unsigned shift = 0; shift < 32; shift += 4)
+            id.push_back("0123456789abcdef"[(bits >> shift) & 15U]);
     }
     return id;
 }
@@ -31,7 +32,8 @@ void add(StreamStatistics& sum, const StreamStatistics& part) {
 StreamHub::StreamHub(engine::Engine& engine, TileService& tiles) : engine_(engine), tiles_(tiles) {
     listener_ = engine_.addListener([this](engine::ChangeKind kind, std::uint64_t version) {
         const std::lock_guard lock(mutex_);
-        for (const auto& [id, client] : clients_) client->changed(kind, version);
+        for (const auto& [id, client] : clients_)
+            client->changed(kind, version);
     });
 }
 
@@ -40,14 +42,14 @@ StreamHub::~StreamHub() {
     stop();
 }
 
-std::string StreamHub::open(const std::string& sheet) {
-    static_cast<void>(engine_.snapshot()->sheet(sheet)); // throws NotFound
+std::string StreamHub::open(const std::string& sheetName) {
+    static_cast<void>(sheet::sheetNamed(*engine_.snapshot(), sheetName)); // throws NotFound
     const std::lock_guard lock(mutex_);
     if (stopping_) throw Cancelled("stream", "the server is stopping");
     if (clients_.size() >= kMaxStreams)
         throw LimitExceeded("stream", "256 pages are connected already", "close some of them");
     const auto id = randomId();
-    clients_[id] = std::make_shared<StreamClient>(id, sheet, engine_, tiles_);
+    clients_[id] = std::make_shared<StreamClient>(id, sheetName, engine_, tiles_);
     return id;
 }
 
@@ -86,14 +88,16 @@ ClientView StreamHub::view(const std::string& id) const {
 void StreamHub::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    for (const auto& [id, client] : clients_) client->close();
+    for (const auto& [id, client] : clients_)
+        client->close();
 }
 
 StreamStatistics StreamHub::statistics() const {
     const std::lock_guard lock(mutex_);
     StreamStatistics sum = closed_;
     sum.streams = static_cast<int>(clients_.size());
-    for (const auto& [id, client] : clients_) add(sum, client->statistics());
+    for (const auto& [id, client] : clients_)
+        add(sum, client->statistics());
     return sum;
 }
 

@@ -1,6 +1,8 @@
-// One framed binary stream per page: only tiles that changed, newest view first, at most two frames unacknowledged.
+// One framed binary stream per page: only tiles that changed, newest view first, at most two frames
+// unacknowledged.
 //
-// Message = u32le headerBytes, u32le payloadBytes, header (UTF-8 JSON), payload (the encoded picture, or nothing).
+// Message = u32le headerBytes, u32le payloadBytes, header (UTF-8 JSON), payload (the encoded picture, or
+// nothing).
 #pragma once
 
 #include "engine/engine.h"
@@ -45,22 +47,23 @@ struct StreamStatistics {
 
 class StreamClient;
 
-/// Thread-safe. The thread that writes a stream's bytes calls next() in a loop; rendering and encoding of that stream
-/// happen inside next(), so a client that reads slowly delays only itself.
+/// Thread-safe. The thread that writes a stream's bytes calls next() in a loop; rendering and encoding of
+/// that stream happen inside next(), so a client that reads slowly delays only itself.
 class StreamHub {
-  public:
+public:
     StreamHub(engine::Engine& engine, TileService& tiles);
     ~StreamHub();
     StreamHub(const StreamHub&) = delete;
     StreamHub& operator=(const StreamHub&) = delete;
 
-    /// Returns the stream's id (unguessable). Throws NotFound if the sheet does not exist, LimitExceeded beyond 256 streams.
+    /// Returns the stream's id (unguessable). Throws NotFound if the sheet does not exist, LimitExceeded
+    /// beyond 256 streams.
     std::string open(const std::string& sheet);
     void close(const std::string& id);
     /// Throws NotFound if there is no such stream.
     void update(const std::string& id, const StreamUpdate& update);
-    /// The next message, ready to be written. Empty optional: the stream is closed (or the hub is stopping). Never blocks
-    /// longer than 5 s: a ping comes when nothing else does.
+    /// The next message, ready to be written. Empty optional: the stream is closed (or the hub is stopping).
+    /// Never blocks longer than 5 s: a ping comes when nothing else does.
     [[nodiscard]] std::optional<std::string> next(const std::string& id);
     /// The view a stream's page last sent, for probes of that page. Throws NotFound.
     [[nodiscard]] ClientView view(const std::string& id) const;
@@ -68,7 +71,7 @@ class StreamHub {
     void stop();
     [[nodiscard]] StreamStatistics statistics() const;
 
-  private:
+private:
     [[nodiscard]] std::shared_ptr<StreamClient> find(const std::string& id) const;
 
     engine::Engine& engine_;

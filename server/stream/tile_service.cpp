@@ -15,10 +15,12 @@ double millisecondsSince(Clock::time_point start) {
 /// Throws the cell's own sentence when there is nothing to draw.
 const TileSpec& drawable(const engine::PreparedTile& tile) {
     if (tile.spec) return *tile.spec;
-    const auto name = sheet::formatAddress(tile.cell);
+    const auto name = sheet::addressName(tile.cell);
     if (tile.progress < 1.0)
-        throw Conflict("cell " + name, "its source is still being imported or computed", "ask again when it is ready");
-    if (tile.code.empty()) throw NotFound("cell " + name, "it is empty", "name a cell that holds a dataset or a formula");
+        throw Conflict("cell " + name, "its source is still being imported or computed",
+                       "ask again when it is ready");
+    if (tile.code.empty())
+        throw NotFound("cell " + name, "it is empty", "name a cell that holds a dataset or a formula");
     throw InvalidInput("cell " + name, tile.code + " " + tile.message);
 }
 
@@ -33,17 +35,20 @@ std::string encodedIdentity(const std::string& pixels, const EncodeSettings& enc
     return identity + (encoding.fast ? "f" : "");
 }
 
-TileService::TileService(engine::Engine& engine, std::uint64_t cacheBytes) : engine_(engine), cacheBytes_(cacheBytes) {}
+TileService::TileService(engine::Engine& engine, std::uint64_t cacheBytes)
+    : engine_(engine), cacheBytes_(cacheBytes) {}
 
 std::string TileService::cellIdentity(const CellImageRequest& request) const {
-    const auto tile = engine_.prepareTile(*engine_.snapshot(), request.sheet, request.cell, request.view, request.quality);
+    const auto tile =
+        engine_.prepareTile(*engine_.snapshot(), request.sheet, request.cell, request.view, request.quality);
     static_cast<void>(drawable(tile));
     return encodedIdentity(tile.identity, request.encoding);
 }
 
 std::shared_ptr<const EncodedImage> TileService::cellImage(const CellImageRequest& request,
                                                            const std::function<bool()>& cancelled) {
-    const auto tile = engine_.prepareTile(*engine_.snapshot(), request.sheet, request.cell, request.view, request.quality);
+    const auto tile =
+        engine_.prepareTile(*engine_.snapshot(), request.sheet, request.cell, request.view, request.quality);
     const auto& spec = drawable(tile);
     const auto identity = encodedIdentity(tile.identity, request.encoding);
     {
@@ -73,7 +78,7 @@ std::shared_ptr<const EncodedImage> TileService::cellImage(const CellImageReques
     const Done done{*this, identity};
     auto frame = engine_.render({spec}, FramePriority::Final, cancelled).get();
     auto& pixels = frame.tiles.at(0);
-    if (!pixels.error.empty()) throw GpuError("cell " + sheet::formatAddress(tile.cell), pixels.error);
+    if (!pixels.error.empty()) throw GpuError("cell " + sheet::addressName(tile.cell), pixels.error);
     auto image = std::make_shared<EncodedImage>();
     const auto start = Clock::now();
     image->bytes = encodeImage(pixels, request.encoding);

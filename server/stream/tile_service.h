@@ -42,15 +42,16 @@ struct CacheState {
 
 /// Thread-safe.
 class TileService {
-  public:
+public:
     /// \param cacheBytes budget of encoded bytes kept, least recently used goes first
     explicit TileService(engine::Engine& engine, std::uint64_t cacheBytes = 64U << 20U);
 
     /// The identity that cellImage would give, without drawing: for If-None-Match. Throws as cellImage.
     [[nodiscard]] std::string cellIdentity(const CellImageRequest& request) const;
 
-    /// Blocks until drawn. Throws NotFound if the cell is empty or not there, InvalidInput (the cell's own error sentence)
-    /// if it holds an error, Conflict while its source is still being imported, Cancelled when `cancelled` says so.
+    /// Blocks until drawn. Throws NotFound if the cell is empty or not there, InvalidInput (the cell's own
+    /// error sentence) if it holds an error, Conflict while its source is still being imported, Cancelled
+    /// when `cancelled` says so.
     [[nodiscard]] std::shared_ptr<const EncodedImage> cellImage(const CellImageRequest& request,
                                                                 const std::function<bool()>& cancelled = {});
 
@@ -62,7 +63,7 @@ class TileService {
     void remember(const std::shared_ptr<const EncodedImage>& image);
     [[nodiscard]] CacheState cacheState() const;
 
-  private:
+private:
     using Order = std::list<std::shared_ptr<const EncodedImage>>;
 
     engine::Engine& engine_;
