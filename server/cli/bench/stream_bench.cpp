@@ -1,0 +1,131 @@
+#include "cli/bench/stream_bench.h"
+
+#include "cli/bench/bench_volumes.h"
+#include "cli/bench/stream_probe.h"
+#include "cli/engine_arguments.h"
+#include "http/resource/web_server.h"
+#include "sheet/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <thread>
+
+namespace voxsheet::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double percentile(std::vector<double> values, double fraction) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    const auto index = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size()))) - 1;
+    return values[std::min(index, values.size() - 1)];
+}
+
+/// The server with `cells` volumes, as a page would meet it.
+struct Served {
+    Served(const StreamBenchOptions& options, int cells, const std::filesystem::path& scratch)
+        : engine(engineFor(options, scratch)) {
+        EngineArguments arguments;
+        arguments.sources = writeBenchVolumes(scratch, cells, options.dim);
+        openSources(engine, arguments);
+        http::WebServerOptions web;
+        web.server.port = 0;
+        server = std::make_unique<http::WebServer>(web, engine, tiles, hub);
+        server->start();
+    }
+    ~Served() { server->stop(); }
+    Served(const Served&) = delete;
+    Served& operator=(const Served&) = delete;
+
+    static engine::EngineOptions engineFor(const StreamBenchOptions& options,
+                                           const std::filesystem::path& scratch) {
+        EngineArguments arguments;
+        arguments.store = (scratch / "store").string();
+        arguments.uploadDir = (scratch / "uploads").string();
+        arguments.roots = {scratch.string()};
+        arguments.device = options.device;
+        return engineOptions(arguments);
+    }
+
+    engine::Engine engine;
+    stream::TileService tiles{engine};
+    stream::StreamHub hub{engine, tiles};
+    std::unique_ptr<http::WebServer> server;
+};
+
+nlohmann::json viewOf(const engine::Engine& engine, glm::ivec2 tile, double azimuth, bool moving) {
+    nlohmann::json tiles = nlohmann::json::array();
+    for (const auto& [address, cell] : engine.snapshot()->sheets.front().cells)
+        tiles.push_back({{"cell", sheet::addressName(address)}, {"width", tile.x}, {"height", tile.y}});
+    return {{"tiles", tiles}, {"moving", moving}, {"style", {{"camera.azimuth", azimuth}}}};
+}
+
+nlohmann::json runCase(const StreamBenchOptions& options, int cells) {
+    const ScratchFolder scratch;
+    const auto start = Clock::now();
+    Served served(options, cells, scratch.path());
+    StreamProbe probe(served.server->port(), served.engine.snapshot()->sheets.front().name);
+    const auto layout = sheet::chooseLayout(static_cast<std::size_t>(cells));
+    const glm::ivec2 tile{options.width / layout.columns, options.height / layout.rows};
+    probe.post(viewOf(served.engine, tile, 30.0, false));
+    if (!probe.waitFinal(static_cast<std::size_t>(cells), 120.0))
+        throw IoError("stream bench", "no picture came within 120 s");
+    const double firstPictureMs = secondsSince(start) * 1e3;
+    static_cast<void>(probe.takeFrames());
+
+    const auto drag = Clock::now();
+    double azimuth = 30.0;
+    while (secondsSince(drag) < options.seconds) {
+        azimuth += 1.0;
+        probe.post(viewOf(served.engine, tile, azimuth, true));
+        std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    }
+    const auto frames = probe.takeFrames();
+    const double dragSeconds = secondsSince(drag);
+    const auto release = Clock::now();
+    probe.post(viewOf(served.engine, tile, azimuth, false));
+    const bool final = probe.waitFinal(static_cast<std::size_t>(cells), 60.0);
+    const double finalMs = secondsSince(release) * 1e3;
+
+    std::vector<double> latencies;
+    std::vector<double> scales;
+    double bytes = 0.0;
+    for (const auto& frame : frames) {
+        latencies.push_back(frame.latencyMs);
+        scales.push_back(frame.scale);
+        bytes += static_cast<double>(frame.bytes);
+    }
+    const auto count = static_cast<double>(frames.size());
+    return {{"cells", cells},
+            {"tile", {tile.x, tile.y}},
+            {"frames_per_s", count / dragSeconds},
+            {"latency_ms_p50", percentile(latencies, 0.5)},
+            {"latency_ms_p95", percentile(latencies, 0.95)},
+            {"bytes_per_frame", count > 0 ? bytes / count : 0.0},
+            {"scale", percentile(scales, 0.5)},
+            {"final_ms", final ? nlohmann::json(finalMs) : nlohmann::json()},
+            {"first_picture_ms", firstPictureMs}};
+}
+
+} // namespace
+
+nlohmann::json runStreamBench(const StreamBenchOptions& options) {
+    nlohmann::json result{
+        {"bench", "stream"}, {"dim", options.dim}, {"size", {options.width, options.height}}};
+    result["cases"] = nlohmann::json::array();
+    for (const int cells : options.cells) {
+        std::fprintf(stderr, "bench stream: %d cells\n", cells);
+        result["cases"].push_back(runCase(options, cells));
+    }
+    return result;
+}
+
+} // namespace voxsheet::cli

@@ -1,0 +1,76 @@
+#include "base/errors.h"
+#include "cli/bench/stream_bench.h"
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace voxsheet::cli {
+
+namespace {
+
+void printTable(const nlohmann::json& result) {
+    for (const auto& row : result.at("cases")) {
+        std::string line;
+        for (const auto& [name, value] : row.items()) {
+            char text[64];
+            if (value.is_number_float())
+                std::snprintf(text, sizeof text, "%.2f", value.get<double>());
+            else
+                std::snprintf(text, sizeof text, "%s", value.dump().c_str());
+            line += (line.empty() ? "" : "  ") + name + " " + text;
+        }
+        std::printf("%s\n", line.c_str());
+    }
+}
+
+Action withOutput(CLI::App& app, std::function<nlohmann::json()> run) {
+    auto json = std::make_shared<bool>(false);
+    app.add_flag("--json", *json, "One JSON object on stdout instead of a table");
+    return [json, run = std::move(run)] {
+        const auto result = run();
+        if (*json)
+            std::printf("%s\n", result.dump(2).c_str());
+        else
+            printTable(result);
+        return kExitDone;
+    };
+}
+
+Action addStream(CLI::App& app) {
+    auto options = std::make_shared<StreamBenchOptions>();
+    app.add_option("--cells", options->cells, "Numbers of cells")->delimiter(',')->check(CLI::Range(1, 256));
+    app.add_option("--dim", options->dim, "Samples per edge of each volume")->check(CLI::Range(16, 512));
+    app.add_option("--width", options->width, "Width of the sheet in pixels")->check(CLI::Range(64, 8192));
+    app.add_option("--height", options->height, "Height of the sheet in pixels")->check(CLI::Range(64, 8192));
+    app.add_option("--seconds", options->seconds, "Time of dragging per case")->check(CLI::Range(0.5, 600.0));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    return withOutput(app, [options] { return runStreamBench(*options); });
+}
+
+} // namespace
+
+Action addBench(CLI::App& app) {
+    app.require_subcommand(1);
+    app.footer("Example: voxsheet bench stream --cells 1,9,25 --json");
+    struct Bench {
+        CLI::App* app;
+        Action action;
+    };
+    auto benches = std::make_shared<std::vector<Bench>>();
+    const auto add = [&](const char* name, const char* text, Action (*define)(CLI::App&)) {
+        auto* bench = app.add_subcommand(name, text);
+        benches->push_back({bench, define(*bench)});
+    };
+    add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
+    return [benches] {
+        for (const auto& bench : *benches)
+            if (bench.app->parsed()) return bench.action();
+        return kExitUsage;
+    };
+}
+
+} // namespace voxsheet::cli
