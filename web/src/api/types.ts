@@ -1,0 +1,188 @@
+// What the server answers, as far as the page reads it.
+import type { StylePatch, StyleValue } from "../model/camera";
+
+export type { StylePatch, StyleValue };
+
+export interface DeviceInfo {
+    renderer: string;
+    vendor?: string;
+    version?: string;
+    platform?: string;
+    reason?: string;
+    software?: boolean;
+    robust?: boolean;
+}
+
+export interface ServerInfo {
+    name: string;
+    version: string;
+    device: DeviceInfo | null;
+    budgets?: Record<string, number>;
+    limits?: Record<string, number>;
+    roots?: string[];
+    /** The server can open the demo workbook. */
+    demo?: boolean;
+}
+
+export interface StyleKey {
+    name: string;
+    type: string;
+    unit?: string | null;
+    min?: number | null;
+    max?: number | null;
+    default?: StyleValue;
+    choices?: string[] | null;
+    /** What some servers call `choices`. */
+    values?: string[] | null;
+    takesNone?: boolean;
+    takesAuto?: boolean;
+    doc?: string;
+    group?: string;
+    widget?: string | null;
+    scope?: string;
+    appliesWhen?: { key: string; values: string[] } | null;
+}
+
+export type ColourStop = [number, number, number, number];
+
+export interface ColourMap {
+    name: string;
+    label: string;
+    kind: string;
+    pivot?: number | null;
+    stops: ColourStop[];
+}
+
+export interface FileEntry {
+    name: string;
+    path: string;
+    kind: "folder" | "file";
+    bytes?: number;
+    format?: string | null;
+    count?: number;
+    files?: string[];
+}
+
+export interface FileListing {
+    path: string;
+    parent: string | null;
+    roots: string[];
+    entries: FileEntry[];
+}
+
+export type FilePreview = Record<string, unknown>;
+
+export interface DatasetField {
+    name: string;
+    unit?: string;
+    quantity?: string;
+    range?: [number, number];
+}
+
+export interface Dataset {
+    name: string;
+    state: "queued" | "importing" | "ready" | "failed";
+    progress?: number;
+    error?: { kind?: string; message: string } | null;
+    files?: string[];
+    dims?: number[];
+    spacing?: number[];
+    type?: string;
+    range?: [number, number];
+    units?: { length?: string; value?: string };
+    fields?: DatasetField[];
+    steps?: number;
+    levels?: unknown;
+    format?: string;
+    notes?: string[];
+    bytes?: number;
+}
+
+export interface Histogram {
+    low: number;
+    high: number;
+    counts: number[];
+    mean?: number;
+    min?: number;
+    max?: number;
+    stddev?: number;
+    nan?: number;
+}
+
+export type Origin = "default" | "sheet" | "column" | "row" | "cell";
+
+export interface ResolvedValue {
+    value: StyleValue;
+    origin: Origin;
+}
+
+export interface CellState {
+    cell: string;
+    title?: string;
+    source?: { dataset?: string; formula?: string } | null;
+    state: "ok" | "empty" | "importing" | "error";
+    code?: string;
+    message?: string;
+    progress?: number;
+    dataset?: string | null;
+    orientation?: boolean;
+    style: Record<string, ResolvedValue>;
+}
+
+export interface SheetState {
+    name: string;
+    rows: number;
+    columns: number;
+    title?: string;
+    columnTitles?: Record<string, string>;
+    rowTitles?: Record<string, string>;
+    cells: CellState[];
+}
+
+export interface BookState {
+    version: number;
+    canUndo: boolean;
+    canRedo: boolean;
+    workbook?: { name?: string; title?: string } & Record<string, unknown>;
+    sheets: SheetState[];
+}
+
+export interface HiddenEdit {
+    cell: string;
+    key: string;
+    by: "cell" | "row" | "column";
+}
+
+export interface EditAnswer {
+    version?: number;
+    hidden?: HiddenEdit[];
+}
+
+export interface ColourBarTick {
+    pos: number;
+    label: string;
+}
+
+export interface ColourBarInfo {
+    stops: [number, number, number, number, number][];
+    low: number;
+    high: number;
+    scale: string;
+    unit?: string;
+    quantity?: string;
+    shared?: boolean;
+    /** The opacity curve as drawn, also when it was chosen from the data. */
+    opacity?: [number, number][];
+    ticks: ColourBarTick[];
+}
+
+export interface ProbeAnswer {
+    world: [number, number, number] | null;
+    values: { cell: string; value: number | null; index?: number[]; unit?: string; note?: string }[];
+}
+
+export type LayerTarget =
+    | { layer: "sheet" }
+    | { layer: "column"; column: string }
+    | { layer: "row"; row: string }
+    | { layer: "cell"; cell: string };

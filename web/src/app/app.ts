@@ -1,0 +1,165 @@
+// Wires store, stream and actions together.
+import { ApiProblem } from "../api/http";
+import { streamUrl } from "../api/sheets";
+import { formatAddress } from "../model/address";
+import { lookFromText, viewOverrides } from "../model/look";
+import { newAppStore, type AppStore } from "../state/app_state";
+import { currentSheet } from "../state/book";
+import type { StreamStatus } from "../state/connection";
+import type { StreamMessage } from "../stream/frame_decoder";
+import { StreamClient } from "../stream/stream_client";
+import { TilePainter } from "../stream/tile_painter";
+import { ViewSender, type ViewBody } from "../stream/view_sender";
+import { CellActions } from "./cell_actions";
+import { DatasetActions } from "./dataset_actions";
+import { Notices } from "./notices";
+import { ServerSync } from "./server_sync";
+import { StyleActions } from "./style_actions";
+import { TileSizes } from "./tile_sizes";
+import { ViewActions } from "./view_actions";
+
+export class App {
+    readonly store: AppStore = newAppStore();
+    readonly notices = new Notices(this.store);
+    readonly sync = new ServerSync(this.store);
+    readonly styles = new StyleActions(this.store, this.sync, this.notices);
+    readonly cells = new CellActions(this.store, this.sync, this.notices);
+    readonly datasets = new DatasetActions(this.store, this.sync, this.notices);
+    readonly view = new ViewActions(this.store, this.sync, this.notices);
+
+    readonly painter = new TilePainter({
+        framePainted: (frame, tiles) => {
+            this.sender.acknowledge(frame);
+            this.store.dispatch({ type: "tiles/update", tiles });
+        },
+    });
+
+    readonly sender: ViewSender = new ViewSender(() => this.viewBody(), {
+        answered: (ms) => this.store.dispatch({ type: "connection/latency", ms }),
+        failed: () => this.client.reconnectNow(),
+        rejected: (detail) => this.notices.error(detail),
+    });
+
+    readonly sizes = new TileSizes(() => this.sender.touch());
+
+    readonly client: StreamClient = new StreamClient({
+        url: () => {
+            const { clientWidth, clientHeight } = document.documentElement;
+            return streamUrl(this.sheetName(), clientWidth, clientHeight, window.devicePixelRatio || 1);
+        },
+        ready: () => true,
+        connecting: () => this.setPhase("connecting"),
+        message: (message) => this.received(message),
+        lost: () => this.setPhase("lost"),
+        refused: (detail) => this.store.dispatch({ type: "connection/phase", phase: "refused", message: detail }),
+        paused: () => {
+            this.sender.close();
+            this.store.dispatch({ type: "connection/phase", phase: "paused" });
+        },
+    });
+
+    constructor() {
+        this.readAddress();
+        this.store.subscribe(() => this.sender.touch());
+    }
+
+    /** Loads what the page needs and opens the stream; goes on trying while the server does not answer. */
+    async start(): Promise<void> {
+        for (;;) {
+            try {
+                await Promise.all([this.sync.loadAbout(), this.sync.loadBook(), this.sync.datasets.request()]);
+                break;
+            } catch (problem) {
+                if (!(problem instanceof ApiProblem)) throw problem;
+                const refused = problem.status === 401 || problem.status === 403;
+                const phase = refused ? "refused" : "lost";
+                this.store.dispatch({ type: "connection/phase", phase, message: problem.message });
+                await new Promise((resolve) => setTimeout(resolve, 1000));
+            }
+        }
+        this.client.start();
+    }
+
+    showSheet(name: string): void {
+        this.store.dispatch({ type: "book/sheet", name });
+        this.store.dispatch({ type: "tiles/forget" });
+        this.store.dispatch({ type: "page/enlarge", cell: null });
+        void this.sync.book.request();
+        this.client.reconnectNow();
+    }
+
+    private sheetName(): string {
+        return currentSheet(this.store.get().book)?.name ?? "";
+    }
+
+    /** A connection that was lost or refused stays so until it works again: "connecting" would only flicker. */
+    private setPhase(phase: "connecting" | "lost"): void {
+        if (phase === "lost") this.sender.close();
+        const now = this.store.get().connection.phase;
+        if (now === "refused" || (phase === "connecting" && now === "lost")) return;
+        this.store.dispatch({ type: "connection/phase", phase });
+    }
+
+    private received(message: StreamMessage): void {
+        const { header } = message;
+        switch (header.type) {
+            case "hello":
+                this.opened(String(header["stream"]));
+                break;
+            case "workbook":
+                void this.sync.book.request();
+                break;
+            case "datasets":
+                void this.sync.datasets.request();
+                break;
+            case "tile":
+                this.painter.tile(message);
+                break;
+            case "cell":
+                this.painter.cell(message);
+                break;
+            case "status":
+                this.store.dispatch({ type: "connection/status", status: header as unknown as StreamStatus });
+                break;
+            default:
+                // "ping", and messages of later versions.
+                break;
+        }
+    }
+
+    private opened(stream: string): void {
+        const again = this.store.get().connection.openings > 0;
+        this.painter.streamOpened();
+        this.sender.open(stream);
+        this.store.dispatch({ type: "connection/phase", phase: "live" });
+        if (!again) return;
+        // The server may have been restarted, with other data or another version.
+        void this.notices.attempt(() => this.sync.loadAbout());
+        void this.sync.book.request();
+        void this.sync.datasets.request();
+    }
+
+    private viewBody(): ViewBody {
+        const { page, book } = this.store.get();
+        const sheet = currentSheet(book);
+        const { style, cells } = viewOverrides(page.look, sheet, page.live);
+        return {
+            moving: page.moving || Object.keys(page.live).length > 0,
+            tiles: this.sizes.visibleTiles(formatAddress(page.selection.active)),
+            focus: page.enlarged,
+            style,
+            cells,
+        };
+    }
+
+    /** Links carry sheet and view in the fragment, which never reaches a server. */
+    private readAddress(): void {
+        const parts = new URLSearchParams(window.location.hash.slice(1));
+        const sheet = parts.get("sheet");
+        if (sheet) this.store.dispatch({ type: "book/sheet", name: sheet });
+        // URLSearchParams has decoded once already.
+        const view = parts.get("view");
+        const look = view === null ? null : lookFromText(encodeURIComponent(view));
+        if (look) this.store.dispatch({ type: "page/look", look });
+    }
+}

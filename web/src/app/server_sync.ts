@@ -1,0 +1,61 @@
+// Keeps the store equal to the server: what it is, the workbook, the datasets, the colour bars.
+import { listDatasets } from "../api/datasets";
+import { getColourMaps, getInfo, getStyleKeys } from "../api/info";
+import { getColourBar } from "../api/sheets";
+import { getState } from "../api/workbook";
+import type { ColourBarInfo } from "../api/types";
+import type { AppStore } from "../state/app_state";
+import { currentSheet } from "../state/book";
+import { Refresher } from "./refresher";
+
+/** Colour bars are small, but a large sheet has many: few at a time leave room for input. */
+const barsAtOnce = 2;
+
+export class ServerSync {
+    readonly book = new Refresher(() => this.quietly(() => this.loadBook()));
+    readonly datasets = new Refresher(() => this.quietly(() => this.loadDatasets()));
+    private readonly bars = new Refresher(() => this.quietly(() => this.loadBars()));
+
+    constructor(private readonly store: AppStore) {}
+
+    /** Throws ApiProblem. */
+    async loadAbout(): Promise<void> {
+        const [info, keys, maps] = await Promise.all([getInfo(), getStyleKeys(), getColourMaps()]);
+        this.store.dispatch({ type: "connection/about", info, keys, maps });
+    }
+
+    /** Throws ApiProblem. */
+    async loadBook(): Promise<void> {
+        const book = await getState();
+        this.store.dispatch({ type: "book/loaded", book });
+        void this.bars.request();
+    }
+
+    private async loadDatasets(): Promise<void> {
+        this.store.dispatch({ type: "book/datasets", datasets: await listDatasets() });
+    }
+
+    private async loadBars(): Promise<void> {
+        const sheet = currentSheet(this.store.get().book);
+        if (!sheet) return;
+        const waiting = sheet.cells.filter((cell) => cell.state === "ok").map((cell) => cell.cell);
+        const bars: Record<string, ColourBarInfo> = {};
+        const worker = async (): Promise<void> => {
+            for (let cell = waiting.shift(); cell !== undefined; cell = waiting.shift()) {
+                const bar = await getColourBar(sheet.name, cell).catch(() => null);
+                if (bar) bars[cell] = bar;
+            }
+        };
+        await Promise.all(Array.from({ length: barsAtOnce }, worker));
+        if (currentSheet(this.store.get().book)?.name === sheet.name) this.store.dispatch({ type: "book/bars", bars });
+    }
+
+    /** A refresh that fails is repeated by the next change or by the reconnection, which tells the user. */
+    private async quietly(work: () => Promise<void>): Promise<void> {
+        try {
+            await work();
+        } catch (problem) {
+            console.warn("refresh failed", problem);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+// What the stream says about each tile on show; the pictures themselves live in their canvases.
+
+export interface TileInfo {
+    painted: boolean;
+    level: number;
+    scale: number;
+    final: boolean;
+    renderMs: number;
+    state: "ok" | "importing" | "error" | "empty";
+    code: string;
+    message: string;
+    progress: number;
+}
+
+export type TileSlice = Record<string, TileInfo>;
+
+export const newTile: TileInfo = {
+    painted: false,
+    level: 0,
+    scale: 1,
+    final: false,
+    renderMs: 0,
+    state: "ok",
+    code: "",
+    message: "",
+    progress: 1,
+};
+
+export type TileAction =
+    | { type: "tiles/update"; tiles: Record<string, Partial<TileInfo>> }
+    | { type: "tiles/forget" };
+
+export function reduceTiles(state: TileSlice, action: TileAction): TileSlice {
+    switch (action.type) {
+        case "tiles/forget":
+            return {};
+        case "tiles/update": {
+            const next = { ...state };
+            for (const [cell, info] of Object.entries(action.tiles)) next[cell] = { ...(state[cell] ?? newTile), ...info };
+            return next;
+        }
+    }
+}

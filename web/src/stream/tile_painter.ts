@@ -1,0 +1,123 @@
+// Paints tiles into their canvases, in the order in which they came; decoding runs in parallel.
+import type { TileInfo } from "../state/tiles";
+import type { StreamMessage } from "./frame_decoder";
+import { PaintStatistics } from "./paint_statistics";
+
+export interface PaintEvents {
+    /** After the last tile of a frame is on its canvas. */
+    framePainted(frame: number, tiles: Record<string, Partial<TileInfo>>): void;
+}
+
+function numberOf(value: unknown, fallback = 0): number {
+    return typeof value === "number" ? value : fallback;
+}
+
+const mimeTypes: Record<string, string> = { jpeg: "image/jpeg", jpg: "image/jpeg", png: "image/png", webp: "image/webp" };
+
+export class TilePainter {
+    readonly statistics = new PaintStatistics();
+    private readonly canvases = new Map<string, HTMLCanvasElement>();
+    private order: Promise<void> = Promise.resolve();
+    private opening = 0;
+    private pending: Record<string, Partial<TileInfo>> = {};
+
+    constructor(private readonly events: PaintEvents) {}
+
+    register(cell: string, canvas: HTMLCanvasElement): void {
+        this.canvases.set(cell, canvas);
+    }
+
+    unregister(cell: string, canvas: HTMLCanvasElement): void {
+        if (this.canvases.get(cell) === canvas) this.canvases.delete(cell);
+    }
+
+    /** What is still being decoded for an older stream is dropped. */
+    streamOpened(): void {
+        ++this.opening;
+        this.pending = {};
+        this.statistics.streamOpened();
+    }
+
+    tile({ header, payload }: StreamMessage): void {
+        const opening = this.opening;
+        const type = mimeTypes[String(header["format"])] ?? "image/png";
+        // Copied: the decoder's buffer goes on with the next messages.
+        const decoded = createImageBitmap(new Blob([payload.slice()], { type }));
+        this.inOrder(opening, async () => {
+            let bitmap: ImageBitmap | null = null;
+            try {
+                bitmap = await decoded;
+            } catch {
+                // A picture that cannot be decoded leaves the old one; the frame still counts as seen, or the stream would stall.
+            }
+            if (opening !== this.opening) return bitmap?.close();
+            if (bitmap) this.paint(header, bitmap, payload.byteLength);
+            this.endOfFrame(header);
+        });
+    }
+
+    cell({ header }: StreamMessage): void {
+        const state = String(header["state"]) as TileInfo["state"];
+        this.inOrder(this.opening, () => {
+            this.pending[String(header["cell"])] = {
+                state,
+                code: String(header["code"] ?? ""),
+                message: String(header["message"] ?? ""),
+                progress: numberOf(header["progress"], 1),
+                final: state !== "importing",
+            };
+            this.endOfFrame(header);
+        });
+    }
+
+    private inOrder(opening: number, step: () => void | Promise<void>): void {
+        this.order = this.order.then(() => (opening === this.opening ? step() : undefined));
+    }
+
+    private paint(header: StreamMessage["header"], bitmap: ImageBitmap, bytes: number): void {
+        const cell = String(header["cell"]);
+        const canvas = this.canvases.get(cell);
+        const context = canvas?.getContext("2d");
+        if (canvas && context) {
+            // The picture keeps its own size; CSS stretches it over the tile while the resolution is reduced.
+            if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
+                canvas.width = bitmap.width;
+                canvas.height = bitmap.height;
+            } else {
+                context.clearRect(0, 0, canvas.width, canvas.height);
+            }
+            context.drawImage(bitmap, 0, 0);
+        }
+        bitmap.close();
+        const info: Partial<TileInfo> = {
+            painted: true,
+            state: "ok",
+            code: "",
+            message: "",
+            progress: 1,
+            level: numberOf(header["level"]),
+            scale: numberOf(header["scale"], 1),
+            final: header["final"] === true,
+            renderMs: numberOf(header["renderMs"]),
+        };
+        this.pending[cell] = info;
+        this.statistics.add({
+            seq: numberOf(header["seq"]),
+            frame: numberOf(header["frame"]),
+            cell,
+            at: performance.now(),
+            level: info.level ?? 0,
+            scale: info.scale ?? 1,
+            final: info.final ?? false,
+            format: String(header["format"]),
+            bytes,
+        });
+    }
+
+    private endOfFrame(header: StreamMessage["header"]): void {
+        if (header["frameEnd"] !== true) return;
+        const tiles = this.pending;
+        this.pending = {};
+        this.events.framePainted(numberOf(header["frame"]), tiles);
+    }
+}

@@ -1,0 +1,58 @@
+// Which colour means which value: in each tile, or once in the column's header where the range is shared.
+import type { ColourBarInfo } from "../api/types";
+import { formatNumber, withUnit } from "../model/format";
+import { cellOf, currentSheet } from "../state/book";
+import { useSelect } from "./app_context";
+
+export function gradient(stops: readonly (readonly number[])[], towards: string): string {
+    const colours = stops.map(([position, red, green, blue]) => {
+        const byte = (value: number | undefined): number => Math.round(255 * (value ?? 0));
+        return `rgb(${byte(red)} ${byte(green)} ${byte(blue)}) ${(100 * (position ?? 0)).toFixed(1)}%`;
+    });
+    return `linear-gradient(${towards}, ${colours.join(", ")})`;
+}
+
+export function describeRange(bar: ColourBarInfo): string {
+    const scale = bar.scale && bar.scale !== "linear" ? `, ${bar.scale}` : "";
+    return withUnit(`${formatNumber(bar.low)} to ${formatNumber(bar.high)}`, bar.unit) + scale;
+}
+
+export function ColourBar({ cell }: { cell: string }) {
+    const bar = useSelect((state) => state.book.bars[cell]);
+    const shown = useSelect((state) => {
+        const annotations = cellOf(currentSheet(state.book), cell)?.style["annotations"]?.value;
+        return annotations === undefined || annotations === "all";
+    });
+    const enlarged = useSelect((state) => state.page.enlarged === cell);
+    if (!bar || !shown || (bar.shared && !enlarged)) return null;
+    return (
+        <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
+            <span class="bar-unit">{[bar.quantity, bar.unit].filter(Boolean).join(" / ")}</span>
+            <div class="bar-scale" style={{ background: gradient(bar.stops, "to top") }}>
+                {bar.ticks.map((tick) => (
+                    <span key={tick.label} style={{ bottom: `${100 * tick.pos}%` }}>
+                        {tick.label}
+                    </span>
+                ))}
+            </div>
+        </div>
+    );
+}
+
+/** For a column's header; only when every drawn cell of the column shares one range. */
+export function SharedColourBar({ cells }: { cells: string[] }) {
+    const bar = useSelect((state) => {
+        const bars = cells.map((cell) => state.book.bars[cell]).filter((found): found is ColourBarInfo => found !== undefined);
+        const first = bars[0];
+        if (!first || !bars.every((other) => other.shared && other.low === first.low && other.high === first.high)) return null;
+        return first;
+    });
+    if (!bar) return null;
+    return (
+        <span class="shared-bar" role="img" aria-label={`Shared colour bar: ${describeRange(bar)}`}>
+            <small>{formatNumber(bar.low)}</small>
+            <i style={{ background: gradient(bar.stops, "to right") }} />
+            <small>{withUnit(formatNumber(bar.high), bar.unit)}</small>
+        </span>
+    );
+}

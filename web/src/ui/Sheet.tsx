@@ -1,0 +1,235 @@
+// The grid: column and row headers, tiles, and the enlarged tile over all of it.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { columnName, formatAddress, type Address } from "../model/address";
+import { isSelected, moveSelection, selectColumn, selectRow, selectSheet, type Selection } from "../model/selection";
+import type { SheetState } from "../api/types";
+import { currentSheet } from "../state/book";
+import { useApp, useSelect } from "./app_context";
+import { SharedColourBar } from "./ColourBar";
+import { focusTitle, insertReference } from "./FormulaBar";
+import { SheetTabs } from "./SheetTabs";
+import { Tile } from "./Tile";
+
+const smallestTile = { width: 200, height: 170 };
+const rowHeaderPixels = 32;
+const columnHeaderPixels = 28;
+
+function modifiersOf(event: MouseEvent): { extend: boolean; toggle: boolean } {
+    return { extend: event.shiftKey, toggle: event.ctrlKey || event.metaKey };
+}
+
+function focusHeader(selection: Selection): void {
+    const name =
+        selection.kind === "columns" ? columnName(selection.active.column) : String(selection.active.row + 1);
+    document.querySelector<HTMLElement>(`[data-header="${name}"]`)?.focus();
+}
+
+/** Arrow keys on titles and headers move the selection; the focus goes along. */
+function useHeaderKeys(sheet: SheetState): (event: KeyboardEvent) => void {
+    const { store } = useApp();
+    const steps: Record<string, [number, number]> = {
+        ArrowLeft: [-1, 0],
+        ArrowRight: [1, 0],
+        ArrowUp: [0, -1],
+        ArrowDown: [0, 1],
+    };
+    return (event) => {
+        const step = steps[event.key];
+        const target = event.target as HTMLElement;
+        if (!step || !(target.dataset["titleOf"] || target.dataset["header"])) return;
+        event.preventDefault();
+        event.stopPropagation();
+        const selection = moveSelection(store.get().page.selection, step[0], step[1], event.shiftKey, sheet);
+        store.dispatch({ type: "page/select", selection });
+        if (selection.kind === "cells") focusTitle(formatAddress(selection.active));
+        else focusHeader(selection);
+    };
+}
+
+function ColumnHeader({ column, sheet }: { column: number; sheet: SheetState }) {
+    const { store } = useApp();
+    const name = columnName(column);
+    const selected = useSelect((state) => {
+        const { selection } = state.page;
+        return selection.kind === "sheet" || (selection.kind === "columns" && isSelected(selection, { column, row: 0 }));
+    });
+    const cells = sheet.cells.filter((cell) => cell.cell.replace(/[0-9]+$/, "") === name).map((cell) => cell.cell);
+    return (
+        <div class={`column-header ${selected ? "selected" : ""}`} role="columnheader" aria-selected={selected}>
+            <button
+                type="button"
+                data-header={name}
+                title={`Select column ${name}`}
+                onClick={(event) =>
+                    store.dispatch({
+                        type: "page/select",
+                        selection: selectColumn(store.get().page.selection, column, modifiersOf(event)),
+                    })
+                }
+            >
+                {name} {sheet.columnTitles?.[name] && <span>{sheet.columnTitles[name]}</span>}
+            </button>
+            <SharedColourBar cells={cells} />
+        </div>
+    );
+}
+
+function RowHeader({ row, title }: { row: number; title: string | undefined }) {
+    const { store } = useApp();
+    const selected = useSelect((state) => {
+        const { selection } = state.page;
+        return selection.kind === "sheet" || (selection.kind === "rows" && isSelected(selection, { column: 0, row }));
+    });
+    return (
+        <div class={`row-header ${selected ? "selected" : ""}`} role="rowheader" aria-selected={selected}>
+            <button
+                type="button"
+                data-header={String(row + 1)}
+                title={`Select row ${row + 1}`}
+                onClick={(event) =>
+                    store.dispatch({
+                        type: "page/select",
+                        selection: selectRow(store.get().page.selection, row, modifiersOf(event)),
+                    })
+                }
+            >
+                {row + 1} {title && <span>{title}</span>}
+            </button>
+        </div>
+    );
+}
+
+/** Columns fill the width and rows the height, down to a size below which the grid scrolls. */
+function useTileSize(sheet: SheetState, area: { width: number; height: number }): { width: number; height: number } {
+    const width = Math.max(smallestTile.width, (area.width - rowHeaderPixels) / Math.max(1, sheet.columns));
+    const fit = (area.height - columnHeaderPixels) / Math.max(1, sheet.rows);
+    // Few rows need not be towers: a picture much higher than wide shows mostly background.
+    const height = Math.max(smallestTile.height, Math.min(fit, width * 1.25));
+    return { width: Math.floor(width), height: Math.floor(height) };
+}
+
+function Grid({ sheet, area }: { sheet: SheetState; area: { width: number; height: number } }) {
+    const { store } = useApp();
+    const enlarged = useSelect((state) => state.page.enlarged);
+    const onKeyDown = useHeaderKeys(sheet);
+    const size = useTileSize(sheet, area);
+    const columns = Array.from({ length: sheet.columns }, (_, column) => column);
+    const rows = Array.from({ length: sheet.rows }, (_, row) => row);
+    const style = {
+        gridTemplateColumns: `${rowHeaderPixels}px repeat(${sheet.columns}, ${size.width}px)`,
+        gridTemplateRows: `${columnHeaderPixels}px repeat(${sheet.rows}, ${size.height}px)`,
+    };
+    return (
+        <div
+            class={`grid ${enlarged ? "has-enlarged" : ""}`}
+            style={style}
+            role="grid"
+            aria-label={`Sheet ${sheet.name}`}
+            aria-multiselectable="true"
+            aria-rowcount={sheet.rows}
+            aria-colcount={sheet.columns}
+            onKeyDown={onKeyDown}
+        >
+            <div role="row" class="row">
+                <div class="corner" role="columnheader">
+                    <button
+                        type="button"
+                        aria-label="Select the whole sheet"
+                        title="Select the whole sheet"
+                        onClick={() =>
+                            store.dispatch({ type: "page/select", selection: selectSheet(store.get().page.selection) })
+                        }
+                    />
+                </div>
+                {columns.map((column) => (
+                    <ColumnHeader key={column} column={column} sheet={sheet} />
+                ))}
+            </div>
+            {rows.map((row) => (
+                <div role="row" class="row" key={row} aria-rowindex={row + 1}>
+                    <RowHeader row={row} title={sheet.rowTitles?.[String(row + 1)]} />
+                    {columns.map((column) => (
+                        <DropTile key={`${sheet.name} ${column}`} address={{ column, row }} />
+                    ))}
+                </div>
+            ))}
+        </div>
+    );
+}
+
+export const datasetDragType = "application/x-voxsheet-dataset";
+
+/** A tile that takes a dataset dragged from the list. */
+function DropTile({ address }: { address: Address }) {
+    const app = useApp();
+    const [over, setOver] = useState(false);
+    const takes = (event: DragEvent): boolean => event.dataTransfer?.types.includes(datasetDragType) ?? false;
+    return (
+        <div
+            class={`tile-slot ${over ? "drop-target" : ""}`}
+            role="presentation"
+            onDragOver={(event) => {
+                if (!takes(event)) return;
+                event.preventDefault();
+                setOver(true);
+            }}
+            onDragLeave={() => setOver(false)}
+            onDrop={(event) => {
+                setOver(false);
+                const name = event.dataTransfer?.getData(datasetDragType);
+                if (!name) return;
+                event.preventDefault();
+                void app.cells.setSource(formatAddress(address), name).then((objection) => {
+                    if (objection) app.notices.error(objection);
+                });
+            }}
+        >
+            <Tile address={address} />
+        </div>
+    );
+}
+
+function useAreaSize() {
+    const area = useRef<HTMLDivElement>(null);
+    const [size, setSize] = useState({ width: 0, height: 0 });
+    useEffect(() => {
+        const observer = new ResizeObserver(([entry]) => {
+            if (!entry) return;
+            const { width, height } = entry.contentRect;
+            setSize({ width, height });
+        });
+        observer.observe(area.current!);
+        return () => observer.disconnect();
+    }, []);
+    return { area, size };
+}
+
+export function Sheet() {
+    const sheet = useSelect((state) => currentSheet(state.book));
+    const { area, size } = useAreaSize();
+    /** While a formula is typed, a press on a cell puts its address there instead of selecting it. */
+    const takePress = (event: PointerEvent | MouseEvent): void => {
+        const cell = (event.target as HTMLElement).closest<HTMLElement>("[data-cell]")?.dataset["cell"];
+        if (!cell) return;
+        if (event.type === "pointerdown") swallowing.current = insertReference(cell);
+        if (!swallowing.current) return;
+        event.preventDefault();
+        event.stopPropagation();
+        if (event.type === "click") swallowing.current = false;
+    };
+    const swallowing = useRef(false);
+    return (
+        <main class="sheet-area">
+            <div
+                class="grid-scroll"
+                ref={area}
+                onPointerDownCapture={takePress}
+                onMouseDownCapture={takePress}
+                onClickCapture={takePress}
+            >
+                {sheet && size.width > 0 && <Grid key={sheet.name} sheet={sheet} area={size} />}
+            </div>
+            <SheetTabs />
+        </main>
+    );
+}

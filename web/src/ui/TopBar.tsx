@@ -1,0 +1,121 @@
+// Name, undo and redo, address, formula, view link, export, theme, help.
+import {
+    CircleHelp,
+    Download,
+    Link,
+    Moon,
+    PanelLeft,
+    PanelRight,
+    Redo2,
+    Save,
+    Sun,
+    Undo2,
+} from "lucide-preact";
+import { cellImageUrl, sheetImageUrl } from "../api/sheets";
+import { formatAddress } from "../model/address";
+import { viewOverrides } from "../model/look";
+import { currentSheet } from "../state/book";
+import { useApp, useSelect } from "./app_context";
+import { FormulaBar } from "./FormulaBar";
+import { IconButton } from "./IconButton";
+import { Menu, type MenuItem } from "./Menu";
+
+const exportPixels = { cellWidth: 640, cellHeight: 480 };
+
+function ExportMenu() {
+    const app = useApp();
+    const sheet = useSelect((state) => currentSheet(state.book));
+    const active = useSelect((state) => formatAddress(state.page.selection.active));
+    const look = useSelect((state) => state.page.look);
+    if (!sheet) return null;
+    const size = { width: exportPixels.cellWidth * sheet.columns, height: exportPixels.cellHeight * sheet.rows };
+    const cellStyle = { ...viewOverrides(look, sheet, {}).style, ...viewOverrides(look, sheet, {}).cells[active] };
+    const query = Object.fromEntries(
+        Object.entries(cellStyle).map(([key, value]) => [key, Array.isArray(value) ? value.join(",") : value]),
+    ) as Record<string, string | number>;
+    const cell = { width: exportPixels.cellWidth, height: exportPixels.cellHeight, ...query };
+    const items: MenuItem[] = [
+        { label: "Sheet as PNG", hint: "saved view", href: sheetImageUrl(sheet.name, "png", size), download: `${sheet.name}.png` },
+        {
+            label: `Cell ${active} as PNG`,
+            hint: "this view",
+            href: cellImageUrl(sheet.name, active, "png", cell),
+            download: `${active}.png`,
+        },
+        {
+            label: `Copy address of ${active}'s picture`,
+            onChoose: () => {
+                const url = new URL(cellImageUrl(sheet.name, active, "png", cell), document.baseURI).href;
+                void navigator.clipboard.writeText(url).then(
+                    () => app.notices.info("Address of the picture copied."),
+                    () => app.notices.error(`Copying is not allowed here; the address is ${url}`),
+                );
+            },
+        },
+        { label: "Workbook (JSON)", href: "api/v1/workbook", download: "workbook.json" },
+    ];
+    return (
+        <Menu label="Export" items={items}>
+            <Download size={16} aria-hidden="true" />
+        </Menu>
+    );
+}
+
+function ThemeButton() {
+    const app = useApp();
+    const theme = useSelect((state) => state.page.theme);
+    const next = theme === "dark" ? "light" : "dark";
+    return (
+        <IconButton
+            icon={theme === "dark" ? Sun : Moon}
+            label={`Use the ${next} theme`}
+            onClick={() => app.store.dispatch({ type: "page/theme", theme: next })}
+        />
+    );
+}
+
+export function TopBar() {
+    const app = useApp();
+    const { store, view, cells } = app;
+    const book = useSelect((state) => state.book.book);
+    const leftPanel = useSelect((state) => state.page.leftPanel);
+    const inspector = useSelect((state) => state.page.inspector);
+    const help = useSelect((state) => state.page.help);
+    const name = book?.workbook?.title || book?.workbook?.name || "";
+    return (
+        <header class="top-bar">
+            <IconButton
+                icon={PanelLeft}
+                label={leftPanel ? "Hide data" : "Show data"}
+                pressed={leftPanel !== null}
+                onClick={() => store.dispatch({ type: "page/leftPanel", panel: leftPanel ? null : "datasets" })}
+            />
+            <strong class="brand">Voxsheet</strong>
+            {name && <span class="book-name">{name}</span>}
+            <div class="button-group">
+                <IconButton icon={Undo2} label="Undo" keys="Ctrl+Z" disabled={!book?.canUndo} onClick={() => void cells.undo()} />
+                <IconButton icon={Redo2} label="Redo" keys="Ctrl+Shift+Z" disabled={!book?.canRedo} onClick={() => void cells.redo()} />
+            </div>
+            <FormulaBar />
+            <div class="button-group">
+                <IconButton icon={Save} label="Save view into the workbook" onClick={() => void view.save()} />
+                <IconButton icon={Link} label="Copy a link to this view" onClick={() => void view.copyLink()} />
+                <ExportMenu />
+                <ThemeButton />
+                <IconButton
+                    icon={CircleHelp}
+                    label="Help"
+                    keys="?"
+                    pressed={help}
+                    onClick={() => store.dispatch({ type: "page/help", open: !help })}
+                />
+                <IconButton
+                    icon={PanelRight}
+                    label={inspector ? "Hide inspector" : "Show inspector"}
+                    pressed={inspector}
+                    onClick={() => store.dispatch({ type: "page/inspector", open: !inspector })}
+                />
+            </div>
+        </header>
+    );
+}
