@@ -1,0 +1,24 @@
+// One formula, its references resolved, into a plan.
+#pragma once
+
+#include "sheet/formula/ast.h"
+#include "sheet/formula/values.h"
+
+#include <functional>
+#include <string>
+
+namespace voxsheet::sheet {
+
+/// What a reference stands for.
+struct FormulaOperand {
+    std::string shown;                  ///< the reference, for messages
+    CellValue value;                    ///< PendingValue, DatasetValue, FormulaValue or CellError
+    FieldChoice field{std::int64_t{0}}; ///< DatasetValue: what the cell shows of it
+    int timeStep = 0;
+};
+
+/// FormulaValue, PendingValue or CellError; an error goes before what is pending, the leftmost error first.
+[[nodiscard]] CellValue compileFormula(const FormulaAst& ast,
+                                       const std::function<FormulaOperand(const FormulaNode&)>& resolve);
+
+} // namespace voxsheet::sheet

@@ -1,0 +1,209 @@
+#include "sheet/style_keys.h"
+
+#include "base/errors.h"
+#include "sheet/typed_style.h"
+
+#include <algorithm>
+
+namespace voxsheet::sheet {
+
+namespace {
+
+KeySpec choice(std::string name, std::vector<std::string> choices, std::string initial, std::string group,
+               std::string doc) {
+    KeySpec key;
+    key.name = std::move(name);
+    key.type = KeyType::Choice;
+    key.choices = std::move(choices);
+    key.defaultValue = std::move(initial);
+    key.group = std::move(group);
+    key.widget = "select";
+    key.doc = std::move(doc);
+    return key;
+}
+
+KeySpec number(std::string name, std::string unit, double min, double max, StyleValue initial,
+               std::string group, std::string doc, std::string widget = "slider") {
+    KeySpec key;
+    key.name = std::move(name);
+    key.type = KeyType::Number;
+    key.unit = std::move(unit);
+    key.min = min;
+    key.max = max;
+    key.defaultValue = std::move(initial);
+    key.group = std::move(group);
+    key.widget = std::move(widget);
+    key.doc = std::move(doc);
+    return key;
+}
+
+KeySpec typed(std::string name, KeyType type, StyleValue initial, std::string group, std::string widget,
+              std::string doc) {
+    KeySpec key;
+    key.name = std::move(name);
+    key.type = type;
+    key.defaultValue = std::move(initial);
+    key.group = std::move(group);
+    key.widget = std::move(widget);
+    key.doc = std::move(doc);
+    return key;
+}
+
+KeySpec withNone(KeySpec key) {
+    key.takesNone = true;
+    return key;
+}
+
+KeySpec withAuto(KeySpec key) {
+    key.takesAuto = true;
+    return key;
+}
+
+KeySpec when(KeySpec key, std::string other, std::vector<std::string> values) {
+    key.appliesWhen = {std::move(other), std::move(values)};
+    return key;
+}
+
+void addTechnique(std::vector<KeySpec>& keys) {
+    keys.push_back(
+        choice("technique", {"slices", "raycast", "mip"}, "raycast", "Technique",
+               "How the volume is drawn: view-aligned slices blended back to front, a ray through every "
+               "pixel, or the largest value along each ray."));
+}
+
+void addCamera(std::vector<KeySpec>& keys) {
+    const std::size_t first = keys.size();
+    const std::string group = "Camera";
+    // The default looks from the front right of a patient in RAS+ axes, whose front is +y: a head shows its
+    // face.
+    keys.push_back(number(
+        "camera.azimuth", "degrees", -36000, 36000, 150.0, group,
+        "Turns the eye about the z axis, counter-clockwise seen from above; at 0 it looks along +y, at "
+        "90 along -x."));
+    keys.push_back(number("camera.elevation", "degrees", -90, 90, 20.0, group,
+                          "Height of the eye above the horizon; at 90 it looks straight down."));
+    keys.push_back(number("camera.roll", "degrees", -36000, 36000, 0.0, group,
+                          "Turns the eye clockwise about its line of sight."));
+    keys.push_back(
+        number("camera.distance", "bounding radii", 0.001, 1000, 3.9, group,
+               "From the eye to the point looked at, in bounding radii of the cell's own volume; 3.9 shows "
+               "all of it at 30 degrees from every side."));
+    KeySpec target = typed(
+        "camera.target", KeyType::Vector3, glm::dvec3(0.0), group, "vector",
+        "The point looked at: an offset from the centre of the cell's own volume along the world axes.");
+    target.unit = "bounding radii";
+    target.min = -100.0;
+    target.max = 100.0;
+    keys.push_back(target);
+    keys.push_back(
+        number("camera.fov", "degrees", 1, 150, 30.0, group,
+               "Full vertical angle of view. Orthographic pictures show the height that perspective shows at "
+               "the point looked at."));
+    keys.push_back(choice("camera.projection", {"perspective", "orthographic"}, "perspective", group,
+                          "Perspective, or parallel lines of sight."));
+    for (std::size_t i = first; i < keys.size(); ++i)
+        keys[i].scope = KeyScope::View;
+}
+
+void addTransfer(std::vector<KeySpec>& keys, std::vector<std::string> maps) {
+    const std::string group = "Transfer function";
+    const std::vector<std::string> cutShapes{"linear", "exponential", "parabolic"};
+    std::string initial = maps.front();
+    for (const char* preferred : {"viridis", "auto"})
+        if (std::find(maps.begin(), maps.end(), preferred) != maps.end()) initial = preferred;
+    keys.push_back(
+        when(choice("transfer.map", std::move(maps), std::move(initial), group,
+                    "Named colour map over the range; auto: a diverging one for signed data, else viridis."),
+             "transfer.shape", {"piecewise"}));
+    keys.push_back(
+        withAuto(typed("transfer.opacity", KeyType::OpacityPoints, Automatic{}, group, "curve",
+                       "Opacity per unit length as points [position, opacity], positions in 0 to 1 over the "
+                       "range; auto: the map's own if it brings any, else a ramp.")));
+    keys.push_back(
+        when(withNone(typed("transfer.points", KeyType::ColourPoints, None{}, group, "curve",
+                            "Own colours as points [position, colour] instead of the map; none: the map.")),
+             "transfer.shape", {"piecewise"}));
+    keys.push_back(choice(
+        "transfer.shape", {"piecewise", "linear", "exponential", "parabolic"}, "piecewise", group,
+        "Colours from the map or points (piecewise), or red, green and blue as functions of value with "
+        "two cuts."));
+    keys.push_back(when(number("transfer.cut1", "of the range", 0, 1, 0.25, group,
+                               "Lower cut of the red, green and blue functions; less than transfer.cut2."),
+                        "transfer.shape", cutShapes));
+    keys.push_back(when(number("transfer.cut2", "of the range", 0, 1, 0.75, group,
+                               "Upper cut of the red, green and blue functions; greater than transfer.cut1."),
+                        "transfer.shape", cutShapes));
+    keys.push_back(withAuto(
+        number("transfer.unitLength", "world units", 1e-9, 1e9, Automatic{}, group,
+               "Path length over which the opacities hold; auto: the mean edge of a voxel.", "number")));
+    keys.push_back(typed(
+        "transfer.nanColor", KeyType::Colour, Colour{{0, 0, 0, 0}}, group, "swatch",
+        "Colour of samples without a value on planes and cut faces; volume rendering leaves them out."));
+    keys.push_back(
+        withNone(typed("transfer.belowColor", KeyType::Colour, None{}, group, "swatch",
+                       "Colour and opacity of values below the range; none: as at its lower end.")));
+    keys.push_back(
+        withNone(typed("transfer.aboveColor", KeyType::Colour, None{}, group, "swatch",
+                       "Colour and opacity of values above the range; none: as at its upper end.")));
+}
+
+void addRange(std::vector<KeySpec>& keys) {
+    const std::string group = "Range";
+    const std::vector<std::string> bounded{"fixed", "percentile"};
+    constexpr double largest = 1e300;
+    keys.push_back(choice(
+        "range.mode", {"auto", "own", "shared", "fixed", "percentile", "symmetric"}, "auto", group,
+        "Values that the transfer function spans: chosen from the cell's own data (auto: without a few "
+        "extreme "
+        "samples, and symmetric about 0 if signed), all of the cell's own, those of all cells that share, "
+        "range.min to range.max, the same as percentiles, or the largest magnitude on both sides of 0."));
+    keys.push_back(
+        when(withNone(number("range.min", "value, or percent", -largest, largest, None{}, group,
+                             "Lower end: a value (fixed) or 0 to 100 (percentile); none: the smallest value, "
+                             "or 0.5 percent.",
+                             "number")),
+             "range.mode", bounded));
+    keys.push_back(
+        when(withNone(number("range.max", "value, or percent", -largest, largest, None{}, group,
+                             "Upper end: a value (fixed) or 0 to 100 (percentile); none: the largest value, "
+                             "or 99.5 percent.",
+                             "number")),
+             "range.mode", bounded));
+    keys.push_back(choice(
+        "range.scale", {"linear", "log", "symlog"}, "linear", group,
+        "Positions over the range by value, by its logarithm, or by its logarithm on both sides of 0."));
+}
+
+void addPicture(std::vector<KeySpec>& keys) {
+    const std::string group = "Picture";
+    keys.push_back(number("sampling.distance", "voxels", 0.05, 64, 0.5, group,
+                          "Distance of samples along a ray, or of slices, in voxels of the drawn level."));
+    keys.push_back(
+        choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,
+               "Level of detail of the picture at rest: every voxel, or every second, fourth or eighth."));
+    keys.push_back(typed("background", KeyType::Colour, Colour{{0x10, 0x13, 0x16, 255}}, group, "swatch",
+                         "Behind the volume: #rrggbb or transparent."));
+    keys.push_back(choice("annotations", {"none", "names", "all"}, "all", group,
+                          "What exported pictures carry: nothing, names, or names, colour bars and axes."));
+    keys.push_back(typed("field", KeyType::FieldName, std::int64_t{0}, "Data", "text",
+                         "Which field of the dataset is shown: its name, or its index from 0."));
+    KeySpec time = number("time", "steps", 0, 1'000'000, std::int64_t{0}, "Data",
+                          "Which time step is shown, counted from 0.");
+    time.type = KeyType::Integer;
+    keys.push_back(time);
+}
+
+} // namespace
+
+KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
+    if (colourMapNames.empty()) throw InvalidInput("colour maps", "there are none", "give at least one");
+    std::vector<KeySpec> keys;
+    addTechnique(keys);
+    addTransfer(keys, std::move(colourMapNames));
+    addRange(keys);
+    addPicture(keys);
+    addCamera(keys);
+    return KeyTable(std::move(keys));
+}
+
+} // namespace voxsheet::sheet
