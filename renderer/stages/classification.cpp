@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 namespace voxsheet {
@@ -10,25 +11,21 @@ namespace {
 constexpr std::size_t kCachedTables = 64;
 constexpr double kMaxExtinction = 4096.0;
 
-glm::vec4 shaderEntry(const glm::vec4& entry, std::optional<double> exponent) {
+glm::vec4 shaderEntry(const glm::vec4& entry) {
     const double opacity = entry.w;
-    if (!exponent) {
-        const double extinction = opacity < 1.0 ? -std::log2(1.0 - opacity) : kMaxExtinction;
-        return {glm::vec3(entry), static_cast<float>(std::min(extinction, kMaxExtinction))};
-    }
-    const double alpha = opacity < 1.0 ? -std::expm1(*exponent * std::log1p(-opacity)) : 1.0;
-    return glm::vec4(glm::dvec4(glm::dvec3(entry) * alpha, alpha));
+    const double extinction = opacity < 1.0 ? -std::log1p(-opacity) / std::numbers::ln2 : kMaxExtinction;
+    return {glm::vec3(entry), static_cast<float>(std::min(extinction, kMaxExtinction))};
 }
 
 } // namespace
 
-std::vector<glm::vec4> shaderTable(const TransferTable& table, std::optional<double> exponent) {
+std::vector<glm::vec4> shaderTable(const TransferTable& table) {
     std::vector<glm::vec4> texels;
     texels.reserve(table.entries.size() + 2);
-    texels.push_back(shaderEntry(table.below, exponent));
+    texels.push_back(shaderEntry(table.below));
     for (const auto& entry : table.entries)
-        texels.push_back(shaderEntry(entry, exponent));
-    texels.push_back(shaderEntry(table.above, exponent));
+        texels.push_back(shaderEntry(entry));
+    texels.push_back(shaderEntry(table.above));
     return texels;
 }
 
@@ -70,16 +67,15 @@ gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, cons
 }
 
 void ClassificationStage::bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
-                               std::optional<double> exponent, const ResidentVolume& volume) {
-    const auto* texture = textures_.find([&](const Key& key) {
-        return key.exponent == exponent && (key.table == table || *key.table == *table);
-    });
+                               const ResidentVolume& volume) {
+    const auto* texture = textures_.find(
+        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
     if (texture == nullptr) {
-        const auto texels = shaderTable(*table, exponent);
+        const auto texels = shaderTable(*table);
         const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
         gpu::Texture fresh(context_, GL_TEXTURE_1D, GL_RGBA32F, size);
         fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
-        texture = &textures_.insert({table, exponent}, std::move(fresh));
+        texture = &textures_.insert(table, std::move(fresh));
     }
     volume.texture->bind(volumeUnit);
     texture->bind(tableUnit);

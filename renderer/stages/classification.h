@@ -10,16 +10,15 @@
 #include "volume/transfer_function.h"
 
 #include <memory>
-#include <optional>
+#include <vector>
 
 namespace voxsheet {
 
-/// Texels that classification.glsl fetches, nearest entry: below, the table's n entries, above.
-/// With an exponent e = (distance of samples) / unitLength, the same for every ray: rgb * alpha and alpha =
-/// 1 - (1 - opacity)^e, so that a sample costs one fetch and one blend. Without: rgb and extinction -log2(1 -
-/// opacity) (at most 4096, for opacity 1), from which opacity.glsl makes alpha = 1 - 2^(-extinction e) for
-/// the ray's own e.
-[[nodiscard]] std::vector<glm::vec4> shaderTable(const TransferTable& table, std::optional<double> exponent);
+/// Texels that classification.glsl fetches, nearest entry: below, the table's n entries, above; each rgb and
+/// extinction -log2(1 - opacity) (at most 4096, for opacity 1), from which opacity.glsl makes alpha = 1 -
+/// 2^(-extinction e) over a stretch of e unit lengths. (A table corrected for one e and premultiplied
+/// beforehand was no faster, and it would hold for cubic voxels and whole stretches only.)
+[[nodiscard]] std::vector<glm::vec4> shaderTable(const TransferTable& table);
 
 /// Multiplier and offset pairs of classification.glsl.
 struct ClassificationMapping {
@@ -40,15 +39,11 @@ public:
     [[nodiscard]] static gpu::ShaderDefines defines(const TransferTable& table, const ResidentVolume& volume);
     /// Binds volume and table and sets the uniforms.
     void bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
-              std::optional<double> exponent, const ResidentVolume& volume);
+              const ResidentVolume& volume);
 
 private:
-    struct Key {
-        std::shared_ptr<const TransferTable> table;
-        std::optional<double> exponent;
-    };
     gpu::Context& context_;
-    RecentCache<Key, gpu::Texture> textures_;
+    RecentCache<std::shared_ptr<const TransferTable>, gpu::Texture> textures_;
 };
 
 } // namespace voxsheet

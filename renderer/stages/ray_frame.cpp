@@ -57,25 +57,8 @@ void setRayUniforms(const gpu::Program& program, const RayFrame& frame, glm::ive
     program.set("boxHigh", glm::vec3(frame.boxHigh));
 }
 
-double voxelLengthAlong(const RayFrame& frame, const glm::ivec3& levelDims, const glm::dvec2& q) {
-    const auto direction = frame.direction + q.x * frame.directionX + q.y * frame.directionY;
-    const double voxels = glm::length(direction * glm::dvec3(levelDims));
-    const double world = frame.radiusWorld * (frame.perspective ? std::sqrt(1.0 + glm::dot(q, q)) : 1.0);
-    return world / voxels;
-}
-
-std::optional<double> isotropicVoxelLength(const Grid& grid, const glm::ivec3& levelDims) {
-    glm::dmat3 axes(grid.worldFromIndex);
-    for (int axis = 0; axis < 3; ++axis)
-        axes[axis] *= double(grid.dims[axis]) / levelDims[axis];
-    const double length = glm::length(axes[0]);
-    constexpr double tolerance = 1e-6;
-    for (int a = 0; a < 3; ++a) {
-        if (std::abs(glm::length(axes[a]) - length) > tolerance * length) return std::nullopt;
-        for (int b = 0; b < a; ++b)
-            if (std::abs(glm::dot(axes[a], axes[b])) > tolerance * length * length) return std::nullopt;
-    }
-    return length;
+glm::dvec3 voxelsPerDepth(const RayFrame& frame, const glm::ivec3& levelDims, const glm::dvec2& q) {
+    return (frame.direction + q.x * frame.directionX + q.y * frame.directionY) * glm::dvec3(levelDims);
 }
 
 } // namespace voxsheet

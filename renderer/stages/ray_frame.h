@@ -7,8 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include <optional>
-
 namespace voxsheet {
 
 /// The ray of a pixel with picture coordinates q (see pictureHalf) is, in the texture frame,
@@ -37,12 +35,8 @@ struct RayFrame {
 /// Sets the uniforms of camera_rays.glsl and box.glsl.
 void setRayUniforms(const gpu::Program& program, const RayFrame& frame, glm::ivec2 sizePixels);
 
-/// World length of one voxel of the level along the ray of picture coordinates q: the world distance over
-/// which it advances by 1 in the level's index frame.
-[[nodiscard]] double voxelLengthAlong(const RayFrame& frame, const glm::ivec3& levelDims,
-                                      const glm::dvec2& q);
-
-/// The voxel length, if it is the same in every direction (cubic voxels) to within 1e-6.
-[[nodiscard]] std::optional<double> isotropicVoxelLength(const Grid& grid, const glm::ivec3& levelDims);
+/// Voxels of a level that the ray of picture coordinates q passes per unit of s, per axis.
+[[nodiscard]] glm::dvec3 voxelsPerDepth(const RayFrame& frame, const glm::ivec3& levelDims,
+                                        const glm::dvec2& q);
 
 } // namespace voxsheet

@@ -138,14 +138,15 @@ glm::dvec4 alongRay(const Scene& scene, const TextureRay& ray, double stepVoxels
     return sum.result();
 }
 
-/// One sample on each plane at depth centre + (k + 1/2) spacing, front to back.
-glm::dvec4 throughPlanes(const Scene& scene, const TextureRay& ray, double centreDepth, double spacing) {
+/// One sample for each slab [centre + k depth, centre + (k + 1) depth] of the ray's path, front to back, in
+/// the path's middle.
+glm::dvec4 throughSlabs(const Scene& scene, const TextureRay& ray, double centreDepth, double slabDepth) {
     Accumulator sum(scene);
-    double plane = std::ceil((ray.enter - centreDepth) / spacing - 0.5);
-    for (;; plane += 1.0) {
-        const double depth = centreDepth + (plane + 0.5) * spacing;
-        if (depth > ray.leave) break;
-        if (depth >= ray.enter) sum.add(ray, depth, spacing);
+    for (double slab = std::floor((ray.enter - centreDepth) / slabDepth);; slab += 1.0) {
+        const double near = std::max(ray.enter, centreDepth + slab * slabDepth);
+        const double far = std::min(ray.leave, centreDepth + (slab + 1.0) * slabDepth);
+        if (far > near) sum.add(ray, 0.5 * (near + far), far - near);
+        if (centreDepth + (slab + 1.0) * slabDepth >= ray.leave) break;
     }
     return sum.result();
 }
@@ -173,9 +174,9 @@ Picture integrateLikeTechnique(const TileSpec& tile, const Grid& grid, const glm
     const double centreDepth = -(tile.camera.viewFromWorld * glm::dvec4(centreWorld(grid), 1.0)).z;
     const auto ahead = glm::dmat3(scene.worldFromView) * glm::dvec3(0.0, 0.0, -1.0);
     const auto voxels = glm::dmat3(scene.textureFromWorld) * ahead * scene.levelDims;
-    const double spacing = tile.sampleDistanceVoxels / glm::length(voxels);
-    return overPixels(scene,
-                      [&](const TextureRay& ray) { return throughPlanes(scene, ray, centreDepth, spacing); });
+    const double slabDepth = tile.sampleDistanceVoxels / glm::length(voxels);
+    return overPixels(
+        scene, [&](const TextureRay& ray) { return throughSlabs(scene, ray, centreDepth, slabDepth); });
 }
 
 Picture integrateConverged(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelDims,

@@ -13,7 +13,7 @@ void drawMip(SharedStages& stages, const DrawRequest& request) {
     defines.emplace_back("SKIP_EMPTY", stages.skipEmptySpace ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/mip/mip.glsl", defines);
 
-    stages.classification.bind(program, tile.transfer, 1.0, volume);
+    stages.classification.bind(program, tile.transfer, volume);
     if (stages.skipEmptySpace) stages.emptySpace.bindLargest(program, volume);
     setRayUniforms(program, frame, tile.sizePixels);
     program.set("voxelsPerTexture", glm::vec3(volume.dims));

@@ -4,6 +4,7 @@
 #include "stages/box.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
+#include "stages/opacity.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f, binding = 0) writeonly uniform image2D target;
@@ -56,6 +57,6 @@ void main() {
     Ray ray = cameraRay(vec2(pixel) + 0.5);
     vec2 span = boxSpan(ray);
     float largest = span.x < span.y ? largestTexel(ray, span) : kNone;
-    vec4 rgba = largest > kNone ? classifyTexel(texelSign * largest) : vec4(0.0);
+    vec4 rgba = largest > kNone ? overLength(classifyTexel(texelSign * largest), 1.0) : vec4(0.0);
     imageStore(target, pixel, rgba);
 }

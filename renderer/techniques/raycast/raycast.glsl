@@ -14,7 +14,7 @@ uniform ivec2 targetSize;
 uniform int firstRow;
 uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 uniform float sampleDistanceVoxels;
-uniform float exponentPerRadius; // bounding radius / unitLength
+uniform float unitsPerRadius; // bounding radius / unitLength
 
 const float kOpaque = 1.0 / 1024.0;
 
@@ -28,7 +28,7 @@ bool mayShow(vec3 position) {
 
 vec4 composite(Ray ray, vec2 span) {
     float spacing = sampleDistanceVoxels / length(ray.direction * voxelsPerTexture);
-    float exponent = spacing * ray.radiiPerDepth * exponentPerRadius;
+    float stretchLength = spacing * ray.radiiPerDepth * unitsPerRadius;
     float stretches = (span.y - span.x) / spacing;
     int whole = int(stretches);
     vec3 stride = spacing * ray.direction;
@@ -47,7 +47,7 @@ vec4 composite(Ray ray, vec2 span) {
         int begin = chunk * CHUNK_SAMPLES;
         for (int k = 0; k < CHUNK_SAMPLES; ++k) {
             vec4 entry = classifyTexel(texelAt(first + float(begin + k) * stride));
-            vec4 rgba = begin + k < whole ? overStretch(entry, exponent) : vec4(0.0);
+            vec4 rgba = overLength(entry, begin + k < whole ? stretchLength : 0.0);
             colour += transmittance * rgba.rgb;
             transmittance *= 1.0 - rgba.a;
         }
@@ -56,7 +56,7 @@ vec4 composite(Ray ray, vec2 span) {
     // The rest of the path is shorter than a whole stretch: its sample sits in its middle and counts for its length.
     float rest = stretches - float(whole);
     vec4 entry = classifyTexel(texelAt(first + (float(whole) + 0.5 * (rest - 1.0)) * stride));
-    vec4 rgba = overPartOfStretch(entry, exponent, rest);
+    vec4 rgba = overLength(entry, rest * stretchLength);
     colour += transmittance * rgba.rgb;
     transmittance *= 1.0 - rgba.a;
     return vec4(colour, 1.0 - transmittance);

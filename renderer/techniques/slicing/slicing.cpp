@@ -3,42 +3,68 @@
 #include "techniques/slicing/box_slicer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace voxsheet {
 namespace {
 
-/// The box in the frame (x, y: view coordinates, z: depth beyond the box's centre), all in bounding radii.
-BoxCorners cornersInView(const RayFrame& frame, const glm::dmat3& viewFromTexture, const glm::dvec3& centre) {
+std::array<glm::dvec2, 4> pictureCorners(const RayFrame& frame) {
+    const auto& half = frame.pictureHalf;
+    return {-half, glm::dvec2(half.x, -half.y), half, glm::dvec2(-half.x, half.y)};
+}
+
+/// Per axis, the most that a ray of the picture advances in the texture frame per unit of depth.
+glm::dvec3 steepestAdvance(const RayFrame& frame) {
+    glm::dvec3 steepest(0.0);
+    for (const auto& q : pictureCorners(frame))
+        steepest = glm::max(steepest, glm::abs(voxelsPerDepth(frame, glm::ivec3(1), q)));
+    return steepest;
+}
+
+/// The box, wider by `margin` (texture frame) on all sides, in the frame (x, y: view coordinates, z: depth
+/// beyond the box's centre), all in bounding radii.
+BoxCorners cornersInView(const RayFrame& frame, const glm::dvec3& margin, const glm::dmat4& viewFromTexture) {
+    const auto low = frame.boxLow - margin;
+    const auto high = frame.boxHigh + margin;
     BoxCorners corners{};
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 texture((corner & 1) ? frame.boxHigh.x : frame.boxLow.x,
-                                 (corner & 2) ? frame.boxHigh.y : frame.boxLow.y,
-                                 (corner & 4) ? frame.boxHigh.z : frame.boxLow.z);
-        const auto view =
-            viewFromTexture * (texture - 0.5 * (frame.boxLow + frame.boxHigh)) / frame.radiusWorld;
-        corners[static_cast<std::size_t>(corner)] = {centre.x + view.x, centre.y + view.y, -view.z};
+        const glm::dvec3 texture((corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y,
+                                 (corner & 4) ? high.z : low.z);
+        const auto view = glm::dvec3(viewFromTexture * glm::dvec4(texture, 1.0));
+        corners[static_cast<std::size_t>(corner)] =
+            glm::dvec3(view.x, view.y, -view.z - frame.centreDepthWorld) / frame.radiusWorld;
     }
     return corners;
 }
 
-/// Triangle fans of all slices as plain triangles, farthest slice first.
-std::vector<SliceVertex> sliceTriangles(const std::vector<Slice>& slices, const RayFrame& frame) {
+void appendFan(std::vector<SliceVertex>& vertices, std::span<const glm::vec2> ring, float firstDepth) {
+    for (std::size_t point = 2; point < ring.size(); ++point)
+        for (const std::size_t corner : {std::size_t{0}, point - 1, point})
+            vertices.push_back({ring[corner], firstDepth});
+}
+
+/// Polygons as triangles, farthest first. One that reaches up to the eye or behind it covers the picture.
+std::vector<SliceVertex> triangles(const std::vector<Slice>& polygons, const RayFrame& frame,
+                                   double thickness) {
+    static constexpr std::array<glm::vec2, 4> wholePicture{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
     std::vector<SliceVertex> vertices;
-    vertices.reserve(slices.size() * 12);
-    for (const auto& slice : slices) {
-        // In perspective all points of a slice share their distance from the eye, so dividing by it here
-        // loses nothing.
-        const double distance = frame.perspective ? slice.depth - frame.nearest : 1.0;
-        const auto vertex = [&](int point) {
-            const auto picture = slice.ring[static_cast<std::size_t>(point)] / (distance * frame.pictureHalf);
-            return SliceVertex{glm::vec2(picture), static_cast<float>(slice.depth)};
-        };
-        for (int point = 2; point < slice.points; ++point) {
-            vertices.push_back(vertex(0));
-            vertices.push_back(vertex(point - 1));
-            vertices.push_back(vertex(point));
+    vertices.reserve(polygons.size() * 12);
+    for (const auto& polygon : polygons) {
+        const auto firstDepth = static_cast<float>(polygon.depth - 0.5 * thickness);
+        if (frame.perspective && polygon.depth - frame.nearest <= 0.5 * thickness) {
+            appendFan(vertices, wholePicture, firstDepth);
+            continue;
         }
+        // All points of a polygon share their distance from the eye: dividing by it here keeps the rasteriser
+        // affine.
+        const double distance = frame.perspective ? polygon.depth - frame.nearest : 1.0;
+        std::array<glm::vec2, 6> ring{};
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            ring[i] = glm::vec2(polygon.ring[i] / (distance * frame.pictureHalf));
+        appendFan(vertices, std::span(ring).first(static_cast<std::size_t>(polygon.points)), firstDepth);
     }
     return vertices;
 }
@@ -57,37 +83,40 @@ void SlicingTechnique::uploadVertices(std::span<const std::byte> bytes) {
 
 void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volume, frame, target] = request;
-    const auto& grid = volume.meta->grid;
-    const glm::dmat3 viewFromTexture(tile.camera.viewFromWorld * worldFromTexture(grid));
-    const auto centreView = glm::dvec3(tile.camera.viewFromWorld * glm::dvec4(centreWorld(grid), 1.0));
-    const double spacing =
-        tile.sampleDistanceVoxels * voxelLengthAlong(frame, volume.dims, glm::dvec2(0.0)) / frame.radiusWorld;
-    const auto slices = sliceBox(cornersInView(frame, viewFromTexture, centreView / frame.radiusWorld),
-                                 {0.0, spacing, frame.nearest});
+    const double slabDepth =
+        tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, volume.dims, glm::dvec2(0.0)));
+    const auto steepest = steepestAdvance(frame);
+    const int slabsPerPolygon = chunkSamples(slabDepth * glm::length(steepest * glm::dvec3(volume.dims)));
+    const double thickness = slabDepth * slabsPerPolygon;
+    const auto corners = cornersInView(frame, 0.5 * thickness * steepest,
+                                       tile.camera.viewFromWorld * worldFromTexture(volume.meta->grid));
+    const auto polygons = sliceBox(corners, {0.0, thickness, frame.nearest - 0.5 * thickness});
+    const auto vertices = triangles(polygons, frame, thickness);
+
     const gpu::Framebuffer framebuffer(context_, target);
     framebuffer.bind();
     const glm::vec4 transparent(0.0F);
     glClearBufferfv(GL_COLOR, 0, &transparent.x);
-    const auto vertices = sliceTriangles(slices, frame);
-    if (!vertices.empty()) drawTriangles(stages, request, vertices, spacing);
+    if (!vertices.empty()) drawTriangles(stages, request, vertices, slabDepth, slabsPerPolygon);
     gpu::Framebuffer::unbind();
     // llvmpipe may run raster work that is still queued after later compute work on the same texture.
     glFlush();
 }
 
 void SlicingTechnique::drawTriangles(SharedStages& stages, const DrawRequest& request,
-                                     std::span<const SliceVertex> vertices, double spacing) {
+                                     std::span<const SliceVertex> vertices, double slabDepth,
+                                     int slabsPerPolygon) {
     const auto& [tile, volume, frame, target] = request;
-    const double exponent = spacing * frame.radiusWorld / tile.unitLengthWorld;
-    std::optional<double> uniformExponent;
-    if (!frame.perspective) uniformExponent = exponent;
     auto defines = ClassificationStage::defines(*tile.transfer, volume);
-    defines.emplace_back("UNIFORM_EXPONENT", uniformExponent ? "1" : "0");
+    defines.emplace_back("SLABS_PER_POLYGON", std::to_string(slabsPerPolygon));
+    defines.emplace_back("SKIP_EMPTY", stages.skipEmptySpace ? "1" : "0");
     const auto& program = stages.programs.graphics("techniques/slicing/slice_vertex.glsl",
                                                    "techniques/slicing/slice_fragment.glsl", defines);
-    stages.classification.bind(program, tile.transfer, uniformExponent, volume);
+    stages.classification.bind(program, tile.transfer, volume);
+    if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volume);
     setRayUniforms(program, frame, tile.sizePixels);
-    program.set("exponentPerRadius", static_cast<float>(exponent));
+    program.set("slabDepth", static_cast<float>(slabDepth));
+    program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));
 
     uploadVertices(std::as_bytes(vertices));
     program.use();

@@ -1,0 +1,35 @@
+#include "image/tile_painter.h"
+
+#include <chrono>
+
+namespace voxsheet::image {
+namespace {
+
+constexpr std::uint64_t kBudgetBytes = std::uint64_t{1} << 30;
+
+} // namespace
+
+TilePainter::TilePainter()
+    : volumes_(std::make_shared<MemoryVolumeProvider>()), residency_(context_, volumes_, kBudgetBytes),
+      techniques_(context_) {}
+
+// Another context may be current by now; GL objects are destroyed in their own.
+TilePainter::~TilePainter() { context_.makeCurrent(); }
+
+fields::Picture TilePainter::draw(const TileSpec& tile) {
+    context_.makeCurrent();
+    const auto lease = residency_.acquire({tile.dataset, tile.field, tile.step, tile.level});
+    gpu::Texture target(context_, GL_TEXTURE_2D, GL_RGBA32F, {tile.sizePixels, 1});
+    std::vector<float> floats(static_cast<std::size_t>(tile.sizePixels.x) *
+                              static_cast<std::size_t>(tile.sizePixels.y) * 4);
+    glFinish();
+    const auto start = std::chrono::steady_clock::now();
+    techniques_.draw(tile, lease.volume(), target);
+    glGetTextureImage(target.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(floats.size() * sizeof(float)),
+                      floats.data());
+    lastMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    context_.checkErrors("reading a tile");
+    return fields::pictureFromFloats(tile.sizePixels, floats);
+}
+
+} // namespace voxsheet::image

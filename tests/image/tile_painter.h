@@ -1,0 +1,41 @@
+// Draws tiles straight through the techniques, without the render thread: context, residency and TechniqueSet
+// in one.
+#pragma once
+
+#include "fields/picture.h"
+#include "gpu/context.h"
+#include "residency/residency_manager.h"
+#include "techniques/technique_set.h"
+#include "volume/memory_volume_provider.h"
+
+#include <memory>
+#include <string>
+
+namespace voxsheet::image {
+
+class TilePainter {
+public:
+    /// Throws GpuError without a usable EGL.
+    TilePainter();
+    ~TilePainter();
+    TilePainter(const TilePainter&) = delete;
+    TilePainter& operator=(const TilePainter&) = delete;
+
+    [[nodiscard]] MemoryVolumeProvider& volumes() { return *volumes_; }
+    [[nodiscard]] gpu::Context& context() { return context_; }
+    [[nodiscard]] TechniqueSet& techniques() { return techniques_; }
+
+    /// The picture of tile.dataset, field, step and level.
+    [[nodiscard]] fields::Picture draw(const TileSpec& tile);
+    /// Milliseconds of the last draw(), from its start to the pixels on the host; uploads not included.
+    [[nodiscard]] double lastMs() const { return lastMs_; }
+
+private:
+    gpu::Context context_;
+    std::shared_ptr<MemoryVolumeProvider> volumes_;
+    ResidencyManager residency_;
+    TechniqueSet techniques_;
+    double lastMs_ = 0.0;
+};
+
+} // namespace voxsheet::image
