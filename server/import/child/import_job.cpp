@@ -1,0 +1,116 @@
+#include "import/child/import_job.h"
+
+#include "base/errors.h"
+#include "import/client/import_options_json.h"
+#include "import/client/import_protocol.h"
+#include "import/formats/own_readers.h"
+#include "store/store_key.h"
+#include "store/store_writer.h"
+
+#include <algorithm>
+
+namespace voxsheet::import {
+
+namespace {
+
+/// 1.2 GB, 35 MB: enough digits to compare two sizes.
+std::string readableBytes(std::uint64_t bytes) {
+    if (bytes < 10'000) return std::to_string(bytes) + " bytes";
+    const auto [unit, name] = bytes < 10'000'000       ? std::pair{1e3, " kB"}
+                              : bytes < 10'000'000'000 ? std::pair{1e6, " MB"}
+                                                       : std::pair{1e9, " GB"};
+    const auto tenths = static_cast<std::uint64_t>(static_cast<double>(bytes) / unit * 10.0 + 0.5);
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + name;
+}
+
+std::vector<store::FileStamp> stampsOf(const SourceHeader& header) {
+    std::vector<store::FileStamp> stamps;
+    for (const auto& file : header.files)
+        stamps.push_back(store::stampOf(file));
+    return stamps;
+}
+
+/// An array, its next level, and what a reader needs to decode and convert it.
+void checkMemory(const std::string& file, const SourceHeader& header, const JobLimits& limits) {
+    if (limits.memoryBytes == 0) return;
+    std::uint64_t largest = 0;
+    for (int field = 0; field < static_cast<int>(header.meta.fields.size()); ++field)
+        largest = std::max(largest, header.arrayBytes(field));
+    if (largest <= limits.memoryBytes / 5 * 2) return;
+    throw LimitExceeded(file,
+                        "reading its volumes of " + readableBytes(largest) + " each needs more than the " +
+                            readableBytes(limits.memoryBytes) + " of memory that an import may use",
+                        "raise --memory-budget, or make the volume smaller");
+}
+
+void checkDisk(const std::string& file, const store::VolumeStore& store, const DatasetMeta& meta) {
+    std::error_code error;
+    const auto space = std::filesystem::space(store.folder(), error);
+    const auto needed = store::entryBytes(meta);
+    if (error || needed <= space.available) return;
+    throw LimitExceeded(file,
+                        "the volume store needs " + readableBytes(needed) + " for it, and its disk has " +
+                            readableBytes(space.available) + " free",
+                        "free space, or choose another folder with --store");
+}
+
+SourceHeader readHeader(const SourceReader& reader, const std::filesystem::path& file,
+                        const ImportOptions& options, const JobLimits& limits) {
+    ImportLimits readerLimits;
+    readerLimits.maxBytes = limits.maxVoxelBytes;
+    auto header = reader.readHeader(file, options, readerLimits);
+    header.meta.sourcePath = file.string();
+    return header;
+}
+
+FilePreview previewOf(const SourceHeader& header) {
+    FilePreview preview{header.meta, header.totalBytes(), {}};
+    for (const auto& file : header.files)
+        preview.files.push_back(file.string());
+    return preview;
+}
+
+} // namespace
+
+FilePreview previewSource(const ReaderRegistry& readers, const std::filesystem::path& file,
+                          const ImportOptions& options, const JobLimits& limits) {
+    auto header = readHeader(readers.choose(file, options), file, options, limits);
+    (void)applyOptions(header, options, {});
+    return previewOf(header);
+}
+
+std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeStore& store,
+                            const ImportJob& job) {
+    const auto& reader = readers.choose(job.file, job.options);
+    const auto before = store::stampOf(job.file);
+    auto header = readHeader(reader, job.file, job.options, job.limits);
+    const auto stamps = stampsOf(header);
+    if (stamps.empty() || stamps.front() != before)
+        throw IoError(job.file.string(), "it changed while it was being read", "import it again");
+
+    const auto key = store::importKey(stamps, kImporterVersion, canonicalOptions(job.options));
+    checkMemory(job.file.string(), header, job.limits);
+    store::StoreWriter* writer = nullptr;
+    const auto sink =
+        applyOptions(header, job.options, [&writer](int field, int step, std::vector<std::byte>&& samples) {
+            writer->addArray(field, step, std::move(samples));
+        });
+    header.meta.key = key;
+    if (job.header) job.header(previewOf(header));
+    if (store.open(key)) return key;
+
+    store.makeRoom(store::entryBytes(header.meta), key);
+    checkDisk(job.file.string(), store, header.meta);
+    store::StoreWriter entry(store, header.meta);
+    writer = &entry;
+    // The last hundredth is for syncing to the disk.
+    reader.readData(header, sink, [&job](double fraction) {
+        if (job.progress) job.progress(0.99 * fraction);
+    });
+    if (stampsOf(header) != stamps)
+        throw IoError(job.file.string(), "it changed while it was being read", "import it again");
+    entry.commit();
+    return key;
+}
+
+} // namespace voxsheet::import
