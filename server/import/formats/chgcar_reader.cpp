@@ -77,6 +77,7 @@ void readGrid(TextScanner& text, const std::string& name, std::span<std::byte> a
               const std::function<void(double)>& progress) {
     constexpr std::size_t progressEvery = 65536;
     const auto values = array.size() / sizeof(double);
+    std::size_t width = 0;
     for (std::size_t index = 0; index < values; ++index) {
         const auto word = text.word();
         if (word.empty())
@@ -86,6 +87,10 @@ void readGrid(TextScanner& text, const std::string& name, std::span<std::byte> a
         if (!value)
             throw InvalidInput(name, "it holds '" + printable(word) + "' where value " +
                                          std::to_string(index + 1) + " of a grid should be");
+        const bool last = index + 1 == values;
+        if (last && word.size() < width && text.atEnd()) // VASP ends lines, and its numbers are equally wide
+            throw InvalidInput(name, "it ends within the last value of a grid", "copy the file again");
+        width = word.size();
         std::memcpy(array.data() + index * sizeof(double), &*value, sizeof(double));
         if (progress && index % progressEvery == 0)
             progress(static_cast<double>(index) / static_cast<double>(values));

@@ -26,7 +26,6 @@ bool TextScanner::fetch() {
     begin_ = 0;
     const auto got = stream_->read(std::as_writable_bytes(std::span(block_).subspan(end_)));
     end_ += got;
-    bytesRead_ += got;
     return got > 0;
 }
 

@@ -26,9 +26,8 @@ public:
     /// Passes over up to `count` words; returns how many there were.
     [[nodiscard]] std::uint64_t skipWords(std::uint64_t count);
 
-    [[nodiscard]] std::uint64_t bytesRead() const {
-        return bytesRead_;
-    } ///< decompressed, blocks fetched so far
+    /// The file ends right here, without a line end.
+    [[nodiscard]] bool atEnd() { return begin_ == end_ && !fetch(); }
 
 private:
     bool fetch();
@@ -39,7 +38,6 @@ private:
     std::vector<char> block_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
-    std::uint64_t bytesRead_ = 0;
 };
 
 } // namespace voxsheet::import
