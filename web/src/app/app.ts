@@ -4,8 +4,9 @@ import { streamUrl } from "../api/sheets";
 import { formatAddress } from "../model/address";
 import { lookFromText, viewOverrides } from "../model/look";
 import { newAppStore, type AppStore } from "../state/app_state";
-import { currentSheet } from "../state/book";
+import { cellOf, currentSheet } from "../state/book";
 import type { StreamStatus } from "../state/connection";
+import type { TileInfo } from "../state/tiles";
 import type { StreamMessage } from "../stream/frame_decoder";
 import { StreamClient } from "../stream/stream_client";
 import { TilePainter } from "../stream/tile_painter";
@@ -31,6 +32,7 @@ export class App {
         framePainted: (frame, tiles) => {
             this.sender.acknowledge(frame);
             this.store.dispatch({ type: "tiles/update", tiles });
+            this.catchUp(tiles);
         },
     });
 
@@ -137,6 +139,16 @@ export class App {
         void this.notices.attempt(() => this.sync.loadAbout());
         void this.sync.book.request();
         void this.sync.datasets.request();
+    }
+
+    /** An import or a formula has come further than the workbook's last answer says: ask again. */
+    private catchUp(tiles: Record<string, Partial<TileInfo>>): void {
+        const sheet = currentSheet(this.store.get().book);
+        const behind = Object.entries(tiles).some(([name, { state }]) => {
+            const known = cellOf(sheet, name)?.state;
+            return known !== undefined && state !== undefined && known !== state;
+        });
+        if (behind) void this.sync.book.request();
     }
 
     private viewBody(): ViewBody {

@@ -3,13 +3,17 @@ import { listDatasets } from "../api/datasets";
 import { getColourMaps, getInfo, getStyleKeys } from "../api/info";
 import { getColourBar } from "../api/sheets";
 import { getState } from "../api/workbook";
-import type { ColourBarInfo } from "../api/types";
+import type { ColourBarInfo, Dataset } from "../api/types";
 import type { AppStore } from "../state/app_state";
 import { currentSheet } from "../state/book";
 import { Refresher } from "./refresher";
 
 /** Colour bars are small, but a large sheet has many: few at a time leave room for input. */
 const barsAtOnce = 2;
+
+function statesOf(datasets: readonly Dataset[]): string {
+    return datasets.map((dataset) => `${dataset.name}\t${dataset.state}`).join("\n");
+}
 
 export class ServerSync {
     readonly book = new Refresher(() => this.quietly(() => this.loadBook()));
@@ -32,7 +36,11 @@ export class ServerSync {
     }
 
     private async loadDatasets(): Promise<void> {
-        this.store.dispatch({ type: "book/datasets", datasets: await listDatasets() });
+        const before = statesOf(this.store.get().book.datasets);
+        const datasets = await listDatasets();
+        this.store.dispatch({ type: "book/datasets", datasets });
+        // A dataset that became ready or failed changes what its cells say.
+        if (statesOf(datasets) !== before && this.store.get().book.book) void this.book.request();
     }
 
     private async loadBars(): Promise<void> {

@@ -14,17 +14,38 @@ function numberOf(value: unknown, fallback = 0): number {
 
 const mimeTypes: Record<string, string> = { jpeg: "image/jpeg", jpg: "image/jpeg", png: "image/png", webp: "image/webp" };
 
+/** The picture keeps its own size; CSS stretches it over the tile while the resolution is reduced. */
+function draw(canvas: HTMLCanvasElement, bitmap: ImageBitmap): void {
+    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
+        canvas.width = bitmap.width;
+        canvas.height = bitmap.height;
+    }
+    const context = canvas.getContext("2d");
+    context?.clearRect(0, 0, canvas.width, canvas.height);
+    context?.drawImage(bitmap, 0, 0);
+}
+
 export class TilePainter {
     readonly statistics = new PaintStatistics();
     private readonly canvases = new Map<string, HTMLCanvasElement>();
     private order: Promise<void> = Promise.resolve();
     private opening = 0;
     private pending: Record<string, Partial<TileInfo>> = {};
+    /** The last picture of each cell: the server does not send again what it knows to be on show. */
+    private readonly newest = new Map<string, Blob>();
 
     constructor(private readonly events: PaintEvents) {}
 
     register(cell: string, canvas: HTMLCanvasElement): void {
         this.canvases.set(cell, canvas);
+        const picture = this.newest.get(cell);
+        if (!picture) return;
+        this.inOrder(this.opening, async () => {
+            if (this.canvases.get(cell) !== canvas || this.newest.get(cell) !== picture) return;
+            const bitmap = await createImageBitmap(picture);
+            draw(canvas, bitmap);
+            bitmap.close();
+        });
     }
 
     unregister(cell: string, canvas: HTMLCanvasElement): void {
@@ -35,6 +56,7 @@ export class TilePainter {
     streamOpened(): void {
         ++this.opening;
         this.pending = {};
+        this.newest.clear();
         this.statistics.streamOpened();
     }
 
@@ -42,7 +64,8 @@ export class TilePainter {
         const opening = this.opening;
         const type = mimeTypes[String(header["format"])] ?? "image/png";
         // Copied: the decoder's buffer goes on with the next messages.
-        const decoded = createImageBitmap(new Blob([payload.slice()], { type }));
+        const picture = new Blob([payload.slice()], { type });
+        const decoded = createImageBitmap(picture);
         this.inOrder(opening, async () => {
             let bitmap: ImageBitmap | null = null;
             try {
@@ -51,7 +74,10 @@ export class TilePainter {
                 // A picture that cannot be decoded leaves the old one; the frame still counts as seen, or the stream would stall.
             }
             if (opening !== this.opening) return bitmap?.close();
-            if (bitmap) this.paint(header, bitmap, payload.byteLength);
+            if (bitmap) {
+                this.newest.set(String(header["cell"]), picture);
+                this.paint(header, bitmap, picture.size);
+            }
             this.endOfFrame(header);
         });
     }
@@ -77,17 +103,7 @@ export class TilePainter {
     private paint(header: StreamMessage["header"], bitmap: ImageBitmap, bytes: number): void {
         const cell = String(header["cell"]);
         const canvas = this.canvases.get(cell);
-        const context = canvas?.getContext("2d");
-        if (canvas && context) {
-            // The picture keeps its own size; CSS stretches it over the tile while the resolution is reduced.
-            if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-                canvas.width = bitmap.width;
-                canvas.height = bitmap.height;
-            } else {
-                context.clearRect(0, 0, canvas.width, canvas.height);
-            }
-            context.drawImage(bitmap, 0, 0);
-        }
+        if (canvas) draw(canvas, bitmap);
         bitmap.close();
         const info: Partial<TileInfo> = {
             painted: true,

@@ -33,6 +33,7 @@ export class ViewSender {
     private ack: number | null = null;
     private underWay = 0;
     private frameRequested = false;
+    private lastAnswerAt = 0;
 
     constructor(
         private readonly currentView: () => ViewBody,
@@ -53,6 +54,11 @@ export class ViewSender {
 
     streamId(): string | null {
         return this.stream;
+    }
+
+    /** When the server took the last of what there was to say (performance.now()); null while something is on its way. */
+    idleSince(): number | null {
+        return this.underWay > 0 || this.frameRequested || this.ack !== null ? null : this.lastAnswerAt;
     }
 
     /** Something that the view is made of may have changed. */
@@ -113,6 +119,7 @@ export class ViewSender {
             if (stream === this.stream) this.events.failed();
         } finally {
             --this.underWay;
+            this.lastAnswerAt = performance.now();
             this.flush();
         }
     }

@@ -3,6 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { ColourMap, StyleValue } from "../api/types";
 import { useSelect } from "./app_context";
 import { gradient } from "./ColourBar";
+import { popupPlace } from "./popup_place";
 
 function Swatch({ map }: { map: ColourMap | undefined }) {
     return <i class="swatch" style={map ? { background: gradient(map.stops, "to right") } : {}} />;
@@ -55,7 +56,12 @@ export function ColourMapPicker({ id, value, choices, set }: {
                 <span>{mapOf(value)?.label ?? value}</span>
             </button>
             {open && (
-                <div class="map-list" role="listbox" aria-label="Colour maps">
+                <div
+                    class="map-list"
+                    role="listbox"
+                    aria-label="Colour maps"
+                    style={popupPlace(root.current?.querySelector(".map-button") ?? null, "right")}
+                >
                     {names.map((name) => (
                         <button
                             type="button"

@@ -1,6 +1,7 @@
 // A button with a menu: arrow keys move, Enter chooses, Esc and a click elsewhere close.
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { popupPlace } from "./popup_place";
 
 export interface MenuItem {
     label: string;
@@ -69,7 +70,7 @@ export function Menu({ label, items, children, class: extra, align = "right" }: 
                 {children}
             </button>
             {open && (
-                <div class={`menu-list menu-${align}`} role="menu" aria-label={label}>
+                <div class="menu-list" role="menu" aria-label={label} style={popupPlace(button.current, align)}>
                     {items.map((item) =>
                         item.href ? (
                             <a role="menuitem" key={item.label} href={item.href} download={item.download} onClick={close}>
