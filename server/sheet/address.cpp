@@ -23,10 +23,16 @@ std::size_t letterCount(std::string_view text) {
     return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), isLetter) - text.begin());
 }
 
-bool needsQuotes(std::string_view name) {
-    const bool plain =
-        std::all_of(name.begin(), name.end(), [](char c) { return isLetter(c) || isDigit(c) || c == '_'; });
-    return !plain || isDigit(name.front()) || looksLikeAddress(name);
+bool isPlainWord(std::string_view name) {
+    return !name.empty() && !isDigit(name.front()) && std::all_of(name.begin(), name.end(), [](char c) {
+        return isLetter(c) || isDigit(c) || c == '_';
+    });
+}
+
+/// "B2" could be taken for a cell, "Sheet2" is beyond the last column.
+bool couldBeCell(std::string_view name) {
+    constexpr std::size_t lettersOfLastColumn = 3;
+    return looksLikeAddress(name) && letterCount(name) <= lettersOfLastColumn;
 }
 
 } // namespace
@@ -74,7 +80,7 @@ SheetAddress parseSheetAddress(std::string_view text) {
     std::string_view name = text.substr(0, bang);
     if (name.size() >= 2 && name.front() == '\'' && name.back() == '\'')
         name = name.substr(1, name.size() - 2);
-    else if (name.empty() || needsQuotes(name))
+    else if (!isPlainWord(name))
         throw notAnAddress(text, "a cell of a sheet");
     validateSheetName(name);
     return {std::string(name), parseAddress(text.substr(bang + 1))};
@@ -105,7 +111,7 @@ std::string addressName(const Address& address) { return columnName(address.colu
 
 std::string addressName(const SheetAddress& address) {
     if (address.sheet.empty()) return addressName(address.cell);
-    const bool quote = needsQuotes(address.sheet);
+    const bool quote = !isPlainWord(address.sheet) || couldBeCell(address.sheet);
     return (quote ? "'" + address.sheet + "'" : address.sheet) + "!" + addressName(address.cell);
 }
 

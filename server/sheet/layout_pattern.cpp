@@ -69,7 +69,7 @@ std::vector<Piece> parsePattern(std::string_view pattern) {
 }
 
 /// The placeholders' texts, the earliest as short as possible. Positions that failed are remembered: the work
-/// is at most pieces x length^2, whatever the pattern.
+/// is at most pieces x length + 2 x length^2, whatever the pattern.
 class Matcher {
 public:
     Matcher(const std::vector<Piece>& pieces, std::string_view text)
@@ -77,7 +77,8 @@ public:
           failed_(pieces.size() + 1, std::vector<bool>(text.size() + 1, false)) {}
 
     std::optional<Labels> run() {
-        if (!match(0, 0)) return std::nullopt;
+        constexpr std::size_t longest = 4096; // of a path; also bounds the recursion
+        if (text_.size() > longest || !match(0, 0)) return std::nullopt;
         return labels_;
     }
 
@@ -85,8 +86,10 @@ private:
     bool match(std::size_t piece, std::size_t at) {
         if (piece == pieces_.size()) return at == text_.size();
         if (failed_[piece][at]) return false;
-        const bool good =
-            pieces_[piece].kind == PieceKind::Literal ? literal(piece, at) : placeholder(piece, at);
+        const PieceKind kind = pieces_[piece].kind;
+        const bool good = kind == PieceKind::Literal ? literal(piece, at)
+                          : kind == PieceKind::Any   ? anything(piece, at)
+                                                     : placeholder(piece, at);
         if (!good) failed_[piece][at] = true;
         return good;
     }
@@ -96,10 +99,15 @@ private:
         return text_.substr(at, wanted.size()) == wanted && match(piece + 1, at + wanted.size());
     }
 
+    bool anything(std::size_t piece, std::size_t at) {
+        if (match(piece + 1, at)) return true;
+        return at < text_.size() && text_[at] != '/' && match(piece, at + 1);
+    }
+
     bool placeholder(std::size_t piece, std::size_t at) {
         const PieceKind kind = pieces_[piece].kind;
-        for (std::size_t length = kind == PieceKind::Any ? 0 : 1; at + length <= text_.size(); ++length) {
-            if (length > 0 && text_[at + length - 1] == '/') return false;
+        for (std::size_t length = 1; at + length <= text_.size(); ++length) {
+            if (text_[at + length - 1] == '/') return false;
             if (!match(piece + 1, at + length)) continue;
             if (kind == PieceKind::Row) labels_.row = text_.substr(at, length);
             if (kind == PieceKind::Column) labels_.column = text_.substr(at, length);
