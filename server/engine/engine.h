@@ -2,6 +2,8 @@
 #pragma once
 
 #include "base/errors.h"
+#include "engine/cell_state.h"
+#include "engine/dataset_state.h"
 #include "frame/render_thread.h"
 #include "sheet/address.h"
 #include "sheet/history.h"
@@ -40,14 +42,6 @@ struct EngineOptions {
     bool render = true;                ///< false: no GL (info, tests): images throw Unsupported
 };
 
-enum class DatasetState { Queued, Importing, Ready, Failed };
-
-/// A failure kept as a value: shown in the cell, in the API and on the command line.
-struct Failure {
-    ErrorKind kind = ErrorKind::Internal;
-    std::string message;
-};
-
 struct DatasetInfo {
     std::string name; ///< unique in the workbook
     std::vector<std::filesystem::path> files;
@@ -79,8 +73,6 @@ struct EditReport {
     std::uint64_t version = 0;           ///< of the workbook afterwards
     std::vector<sheet::HiddenBy> hidden; ///< SetStyle only: cells whose nearer values hide the edit
 };
-
-enum class CellState { Empty, Pending, Ready, Error };
 
 /// What stands in a cell, whether it is on screen or not.
 struct CellStatus {
@@ -133,9 +125,9 @@ struct ProbeValue {
 };
 
 struct SheetImageRequest {
-    std::string sheet;                 ///< empty = the first
-    std::optional<sheet::Range> range; ///< absent = all used cells
-    glm::ivec2 sizePixels{0};          ///< of the whole image; 0 = 320x240 per cell
+    std::string sheet;                        ///< empty = the first
+    std::optional<sheet::AddressRange> range; ///< absent = all used cells
+    glm::ivec2 sizePixels{0};                 ///< of the whole image; 0 = 320x240 per cell
     View view;
     std::string title; ///< drawn above the sheet when not empty
     PixelFormat format = PixelFormat::Rgba8;
@@ -181,7 +173,7 @@ public:
                                              const nlohmann::json& options) const;
 
     // --- workbook ---
-    [[nodiscard]] sheet::WorkbookPtr snapshot() const;
+    [[nodiscard]] sheet::Snapshot snapshot() const;
     [[nodiscard]] std::uint64_t version() const;
     [[nodiscard]] const sheet::KeyTable& keys() const;
     /// Applies one command as one undo step; the same non-empty gesture id merges. Throws InvalidInput,
@@ -213,7 +205,8 @@ public:
                                                   std::function<bool()> cancelled = {},
                                                   PixelFormat format = PixelFormat::Rgba8) const;
     [[nodiscard]] SheetImage renderSheet(const SheetImageRequest& request) const;
-    /// One value per used cell at a world point; or at what lies under pixel (px, py) of a cell's picture.
+    /// One value per used cell at a world point; or at what lies under a pixel of a cell's picture, (0, 0)
+    /// being its top left corner (empty when the ray misses the cell's volume, or the cell shows none).
     [[nodiscard]] std::vector<ProbeValue> probeWorld(const std::string& sheetName,
                                                      const glm::dvec3& world) const;
     [[nodiscard]] std::vector<ProbeValue> probePixel(const std::string& sheetName, const sheet::Address& cell,

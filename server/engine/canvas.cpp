@@ -1,0 +1,170 @@
+#include "engine/canvas.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+namespace voxsheet::engine {
+
+namespace {
+
+glm::vec4 premultiplied(const glm::vec4& colour) { return {glm::vec3(colour) * colour.w, colour.w}; }
+
+/// Drops whole UTF-8 characters from the end.
+void dropLastCharacter(std::string& text) {
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U)
+        text.pop_back();
+    if (!text.empty()) text.pop_back();
+}
+
+std::string shortened(std::string line, int fontPixels, int maxWidth) {
+    if (Canvas::textWidth(line, fontPixels) <= maxWidth) return line;
+    while (!line.empty() && Canvas::textWidth(line + "…", fontPixels) > maxWidth)
+        dropLastCharacter(line);
+    return line + "…";
+}
+
+} // namespace
+
+const std::string& pictureFont() {
+    static const std::string font = [] {
+        for (const char* file :
+             {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+              "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+              "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+              "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+            if (std::filesystem::exists(file)) return std::string(file);
+        }
+        throw Unsupported("text in pictures", "no font was found",
+                          "install fonts-dejavu-core, or set annotations to none");
+    }();
+    return font;
+}
+
+Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background)
+    : size_(sizePixels),
+      rgba_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y) * 4) {
+    const glm::vec4 colour = premultiplied(background);
+    for (std::size_t i = 0; i < rgba_.size(); i += 4) {
+        for (int c = 0; c < 4; ++c)
+            rgba_[i + static_cast<std::size_t>(c)] = colour[c];
+    }
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::fill(const PixelRect& area, const glm::vec4& colour) {
+    const glm::vec4 source = premultiplied(colour);
+    const glm::ivec2 low = glm::max(area.low, glm::ivec2(0));
+    const glm::ivec2 high = glm::min(area.high, size_);
+    for (int y = low.y; y < high.y; ++y) {
+        for (int x = low.x; x < high.x; ++x) {
+            float* pixel = rgba_.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
+                                           static_cast<std::size_t>(x)) *
+                                              4;
+            for (int c = 0; c < 4; ++c)
+                pixel[c] = source[c] + pixel[c] * (1.0F - source.w);
+        }
+    }
+}
+
+void Canvas::put(const TilePixels& picture, glm::ivec2 at) {
+    for (int y = std::max(0, -at.y); y < std::min(picture.size.y, size_.y - at.y); ++y) {
+        for (int x = std::max(0, -at.x); x < std::min(picture.size.x, size_.x - at.x); ++x) {
+            const std::size_t from = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
+                                      static_cast<std::size_t>(x)) *
+                                     4;
+            float* to =
+                rgba_.data() + (static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(size_.x) +
+                                static_cast<std::size_t>(x + at.x)) *
+                                   4;
+            for (std::size_t c = 0; c < 4; ++c) {
+                to[c] = picture.rgba32f.empty() ? static_cast<float>(picture.rgba8[from + c]) / 255.0F
+                                                : picture.rgba32f[from + c];
+            }
+        }
+    }
+}
+
+int Canvas::textWidth(const std::string& line, int fontPixels) {
+    if (line.empty()) return 0;
+    const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(line, fontPixels, pictureFont());
+    if (!roi.defined()) {
+        throw Unsupported("text in pictures", "OpenImageIO cannot set text with " + pictureFont(),
+                          "use an OpenImageIO that was built with FreeType, or set annotations to none");
+    }
+    return roi.width();
+}
+
+void Canvas::text(glm::ivec2 at, TextAlign align, const std::string& line, int fontPixels,
+                  const glm::vec4& colour, int maxWidth) {
+    const std::string shown = shortened(line, fontPixels, maxWidth);
+    if (shown.empty()) return;
+    // The buffer borrows the canvas' pixels.
+    OIIO::ImageBuf buffer(OIIO::ImageSpec(size_.x, size_.y, 4, OIIO::TypeDesc::FLOAT), rgba_.data());
+    const std::array<float, 4> paint{colour.x, colour.y, colour.z, colour.w};
+    using Algo = OIIO::ImageBufAlgo::TextAlignX;
+    const Algo alignX = align == TextAlign::Left    ? Algo::Left
+                        : align == TextAlign::Right ? Algo::Right
+                                                    : Algo::Center;
+    // Baseline: letters of DejaVu Sans are 0.73 of the size high, so this puts their middle at `at`.
+    const int baseline = at.y + static_cast<int>(std::lround(0.36 * fontPixels));
+    if (!OIIO::ImageBufAlgo::render_text(buffer, at.x, baseline, shown, fontPixels, pictureFont(), paint,
+                                         alignX, OIIO::ImageBufAlgo::TextAlignY::Baseline)) {
+        throw Unsupported("text in pictures", "OpenImageIO failed: " + buffer.geterror(),
+                          "set annotations to none");
+    }
+}
+
+void Canvas::paragraph(const PixelRect& area, const std::string& words, int fontPixels,
+                       const glm::vec4& colour) {
+    const int width = area.size().x;
+    const int lineHeight = fontPixels * 3 / 2;
+    const int lines = std::max(1, area.size().y / lineHeight);
+    std::vector<std::string> wrappedLines{""};
+    std::size_t begin = 0;
+    while (begin < words.size()) {
+        std::size_t end = words.find(' ', begin);
+        if (end == std::string::npos) end = words.size();
+        const std::string word = words.substr(begin, end - begin);
+        begin = end + 1;
+        std::string& last = wrappedLines.back();
+        const std::string longer = last.empty() ? word : last + " " + word;
+        if (last.empty() || textWidth(longer, fontPixels) <= width) {
+            last = longer;
+        } else {
+            wrappedLines.push_back(word);
+        }
+    }
+    if (static_cast<int>(wrappedLines.size()) > lines) {
+        wrappedLines.resize(static_cast<std::size_t>(lines));
+        wrappedLines.back() += "…";
+    }
+    int y = area.low.y + lineHeight / 2;
+    for (const std::string& line : wrappedLines) {
+        text({area.low.x, y}, TextAlign::Left, line, fontPixels, colour, width);
+        y += lineHeight;
+    }
+}
+
+TilePixels Canvas::pixels(PixelFormat format) const {
+    TilePixels picture;
+    picture.size = size_;
+    if (format == PixelFormat::Rgba32F) {
+        picture.rgba32f = rgba_;
+        return picture;
+    }
+    picture.rgba8.resize(rgba_.size());
+    std::transform(rgba_.begin(), rgba_.end(), picture.rgba8.begin(), [](float v) {
+        return static_cast<unsigned char>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
+    });
+    return picture;
+}
+
+} // namespace voxsheet::engine

@@ -1,0 +1,49 @@
+// A picture that pictures, boxes and text are put on.
+#pragma once
+
+#include "engine/sheet_layout.h"
+#include "frame/frame_spec.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace voxsheet::engine {
+
+enum class TextAlign { Left, Centre, Right };
+
+/// The font that text in pictures is set in. Throws Unsupported, naming the package, if none of the usual
+/// ones is installed.
+[[nodiscard]] const std::string& pictureFont();
+
+/// Display sRGB floats, alpha premultiplied. Not thread-safe.
+class Canvas {
+public:
+    /// \param background  not premultiplied
+    Canvas(glm::ivec2 sizePixels, const glm::vec4& background);
+    ~Canvas();
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
+
+    /// Over what is there. Parts outside the canvas are left out. \param colour  not premultiplied
+    void fill(const PixelRect& area, const glm::vec4& colour);
+    /// Replaces what is there.
+    void put(const TilePixels& picture, glm::ivec2 at);
+    /// One line, its middle at the height of `at`, shortened with "…" to `maxWidth` pixels. Throws
+    /// Unsupported as pictureFont.
+    void text(glm::ivec2 at, TextAlign align, const std::string& line, int fontPixels,
+              const glm::vec4& colour, int maxWidth);
+    /// Wrapped at blanks into the area, from its top; what does not fit ends in "…".
+    void paragraph(const PixelRect& area, const std::string& words, int fontPixels, const glm::vec4& colour);
+
+    [[nodiscard]] static int textWidth(const std::string& line, int fontPixels);
+    [[nodiscard]] TilePixels pixels(PixelFormat format) const;
+
+private:
+    glm::ivec2 size_;
+    std::vector<float> rgba_; ///< top row first
+};
+
+} // namespace voxsheet::engine

@@ -1,0 +1,235 @@
+#include "engine/cell_resolver.h"
+
+#include "base/errors.h"
+#include "sheet/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <glm/gtc/constants.hpp>
+
+namespace voxsheet::engine {
+
+namespace {
+
+glm::dvec4 opaqueOf(const sheet::Colour& colour) {
+    return {colour.red(), colour.green(), colour.blue(), colour.alpha()};
+}
+
+ValueWindow fixedWindow(const sheet::RangeStyle& range, const ValueSummary& summary) {
+    const ValueWindow own = fullWindow(summary.min, summary.max);
+    const ValueWindow window{range.min.value_or(own.low), range.max.value_or(own.high)};
+    if (window.low < window.high) return window;
+    throw InvalidInput("range of the cell",
+                       "range.min is not below range.max once the data's own ends are filled in",
+                       "set both, or choose range.mode own")
+        .withField(range.min ? "range.min" : "range.max");
+}
+
+ValueWindow percentiles(const sheet::RangeStyle& range, const ValueSummary& summary) {
+    const double low = summary.quantile(range.min.value_or(0.5) / 100.0);
+    const double high = summary.quantile(range.max.value_or(99.5) / 100.0);
+    return fullWindow(low, std::max(low, high));
+}
+
+bool isSymmetric(const ValueWindow& window) {
+    return window.low < 0.0 && std::abs(window.low + window.high) <= 1e-6 * (window.high - window.low);
+}
+
+const ColourMap& mapNamed(const ColourMapTable& maps, const std::string& name) {
+    if (const ColourMap* map = maps.find(name)) return *map;
+    throw InvalidInput("transfer.map", "there is no colour map '" + name + "'",
+                       "choose one of the listed maps")
+        .withField("transfer.map");
+}
+
+/// Puts the neutral colour of a diverging map at the value 0 where the range holds it.
+void movePivot(std::vector<ColourPoint>& colours, double pivot, double zero) {
+    for (ColourPoint& stop : colours) {
+        stop.position = stop.position <= pivot
+                            ? stop.position / pivot * zero
+                            : zero + (stop.position - pivot) / (1.0 - pivot) * (1.0 - zero);
+    }
+}
+
+struct RangeChoice {
+    ValueWindow window;
+    bool diverging = false;
+};
+
+RangeChoice chooseRange(const sheet::RangeStyle& range, const ColourMap* map, const ValueSummary& summary) {
+    const bool signedData = opensDiverging(summary);
+    switch (range.mode) {
+    case sheet::RangeMode::Own: {
+        const ValueWindow window = fullWindow(summary.min, summary.max);
+        return {window, signedData};
+    }
+    case sheet::RangeMode::Fixed: {
+        const ValueWindow window = fixedWindow(range, summary);
+        return {window, signedData && window.low < 0.0 && window.high > 0.0};
+    }
+    case sheet::RangeMode::Percentile: {
+        const ValueWindow window = percentiles(range, summary);
+        return {window, signedData && window.low < 0.0 && window.high > 0.0};
+    }
+    case sheet::RangeMode::Symmetric:
+        return {symmetricWindow(fullWindow(summary.min, summary.max)), true};
+    case sheet::RangeMode::Auto:
+    case sheet::RangeMode::Shared:
+        break;
+    }
+    if (map != nullptr && map->kind == ColourMapKind::Ct)
+        return {{map->window.first, map->window.second}, false};
+    return {defaultWindow(summary), signedData};
+}
+
+} // namespace
+
+FieldAndStep chooseField(const sheet::FieldChoice& choice, int timeStep, const DatasetMeta& meta) {
+    FieldAndStep shown;
+    shown.step = std::clamp(timeStep, 0, std::max(0, meta.stepCount() - 1));
+    if (const auto* index = std::get_if<std::int64_t>(&choice)) {
+        if (*index >= 0 && *index < static_cast<std::int64_t>(meta.fields.size())) {
+            shown.field = static_cast<int>(*index);
+            return shown;
+        }
+    } else {
+        const std::string& name = std::get<std::string>(choice);
+        for (std::size_t i = 0; i < meta.fields.size(); ++i) {
+            if (meta.fields[i].name == name) {
+                shown.field = static_cast<int>(i);
+                return shown;
+            }
+        }
+    }
+    std::string names;
+    for (const FieldMeta& field : meta.fields)
+        names += (names.empty() ? "" : ", ") + field.name;
+    const bool byIndex = std::holds_alternative<std::int64_t>(choice);
+    const std::string asked = byIndex ? "number " + std::to_string(std::get<std::int64_t>(choice))
+                                      : "'" + std::get<std::string>(choice) + "'";
+    throw InvalidInput("field " + asked, "this dataset has no such field", "choose one of: " + names)
+        .withField("field");
+}
+
+ResolvedTransfer resolveTransfer(const sheet::ResolvedStyle& resolved, const ColourMapTable& maps,
+                                 const ValueSummary& summary, double boxPathUnitLengths) {
+    const sheet::TypedStyle& style = resolved.style;
+    const sheet::TransferStyle& transfer = style.transfer;
+    const bool automaticMap = transfer.map == "auto";
+    ResolvedTransfer result;
+    result.map = automaticMap ? nullptr : &mapNamed(maps, transfer.map);
+    const RangeChoice range = chooseRange(style.range, result.map, summary);
+    result.diverging = range.diverging;
+    if (automaticMap) result.map = &mapNamed(maps, range.diverging ? "cool-warm" : "viridis");
+
+    TransferFunction& function = result.function;
+    function.low = range.window.low;
+    function.high = range.window.high;
+    function.scale = style.range.scale;
+    function.shape = transfer.shape;
+    function.cut1 = transfer.cut1;
+    function.cut2 = transfer.cut2;
+    // A range that was typed in is window and level: a CT map is stretched over it.
+    const bool anchored = style.range.mode != sheet::RangeMode::Fixed;
+    function.colours = coloursOverRange(*result.map, function.low, function.high, anchored);
+    if (result.map->kind == ColourMapKind::Diverging && function.low < 0.0 && function.high > 0.0 &&
+        !isSymmetric(range.window)) {
+        movePivot(function.colours, result.map->pivot, transferPosition(function, 0.0));
+    }
+    if (transfer.points) {
+        function.colours.clear();
+        for (const auto& stop : *transfer.points) {
+            function.colours.push_back({stop.position, glm::dvec3(opaqueOf(stop.colour))});
+        }
+        result.map = nullptr;
+    }
+    if (function.shape != TransferShape::Piecewise) result.map = nullptr;
+
+    const sheet::StyleValue& opacity = resolved.values.at("transfer.opacity").value;
+    if (const auto* stops = std::get_if<sheet::OpacityStops>(&opacity)) {
+        for (const auto& stop : *stops)
+            function.opacities.push_back({stop.position, stop.opacity});
+    } else if (result.map != nullptr && result.map->kind == ColourMapKind::Ct) {
+        function.opacities = opacitiesOverRange(*result.map, function.low, function.high, anchored);
+    } else if (style.technique == sheet::Technique::Mip) {
+        function.opacities = defaultProjectionOpacity(summary, function, result.diverging);
+    } else {
+        function.opacities = defaultOpacity(summary, function, result.diverging, boxPathUnitLengths);
+    }
+    function.nan = opaqueOf(transfer.nan);
+    function.hasBelow = transfer.below.has_value();
+    function.hasAbove = transfer.above.has_value();
+    if (transfer.below) function.below = opaqueOf(*transfer.below);
+    if (transfer.above) function.above = opaqueOf(*transfer.above);
+    return result;
+}
+
+double boxPathUnitLengths(const Grid& grid) {
+    const IndexBox box = boxIndex(grid);
+    double edges = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        edges += glm::length(glm::dvec3(grid.worldFromIndex[axis])) * (box.high[axis] - box.low[axis]);
+    }
+    return std::max(edges / 3.0 / meanVoxelEdgeWorld(grid), 1e-6);
+}
+
+ValueSummary mergeSummaries(const std::vector<ValueSummary>& summaries) {
+    ValueSummary merged;
+    bool first = true;
+    std::vector<float> values;
+    for (const ValueSummary& each : summaries) {
+        merged.min = first ? each.min : std::min(merged.min, each.min);
+        merged.max = first ? each.max : std::max(merged.max, each.max);
+        first = false;
+        for (const double value : each.quantiles)
+            values.push_back(static_cast<float>(value));
+    }
+    return summariseValues(values, merged.min, merged.max);
+}
+
+CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid, glm::ivec2 sizePixels) {
+    const double radius = std::max(boundingRadiusWorld(grid), 1e-300);
+    const sheet::CameraPose pose = sheet::cameraPose(camera, centreWorld(grid), radius);
+    const double aspect = static_cast<double>(sizePixels.x) / static_cast<double>(sizePixels.y);
+    const double narrow = std::min(1.0, aspect);
+    CameraSpec spec;
+    spec.viewFromWorld = pose.viewFromWorld;
+    spec.projection = camera.projection == sheet::Projection::Orthographic ? Projection::Orthographic
+                                                                           : Projection::Perspective;
+    const double half = glm::radians(camera.fovDegrees) / 2.0;
+    spec.fovYDegrees = glm::degrees(2.0 * std::atan(std::tan(half) / narrow));
+    spec.heightWorld = pose.orthographicHeightWorld / narrow;
+    return spec;
+}
+
+TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, const FieldAndStep& shown,
+                     std::shared_ptr<const TransferTable> table, glm::ivec2 sizePixels, int level,
+                     double sampleDistanceFactor) {
+    TileSpec spec;
+    spec.dataset = meta.key;
+    spec.field = shown.field;
+    spec.step = shown.step;
+    spec.level = std::clamp(std::max(level, static_cast<int>(style.quality)), 0, meta.levels() - 1);
+    switch (style.technique) {
+    case sheet::Technique::Slices:
+        spec.technique = Technique::Slices;
+        break;
+    case sheet::Technique::Raycast:
+        spec.technique = Technique::Raycast;
+        break;
+    case sheet::Technique::Mip:
+        spec.technique = Technique::Mip;
+        break;
+    }
+    spec.camera = resolveCamera(style.camera, meta.grid, sizePixels);
+    spec.transfer = std::move(table);
+    spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
+    spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
+    spec.background = glm::vec4(opaqueOf(style.background));
+    spec.sizePixels = sizePixels;
+    return spec;
+}
+
+} // namespace voxsheet::engine

@@ -1,0 +1,124 @@
+#include "engine/dataset_keeper.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace voxsheet::engine {
+
+namespace {
+
+constexpr std::uint64_t kDefaultStoreLimit = 20ULL << 30U;
+
+int importWorkers(const EngineOptions& options) {
+    const int cores =
+        options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+    // Imports are children that read and build with several threads of their own; more of them only fight for
+    // memory.
+    return std::clamp(cores, 1, 4);
+}
+
+std::vector<std::filesystem::path> allowedFolders(const EngineOptions& options) {
+    std::vector<std::filesystem::path> folders = options.roots;
+    if (!options.uploadDir.empty()) folders.push_back(options.uploadDir);
+    return folders;
+}
+
+} // namespace
+
+DatasetKeeper::DatasetKeeper(const EngineOptions& options, Importer importer,
+                             std::function<void(bool, const std::string&)> changed)
+    : options_(options), importer_(std::move(importer)), changed_(std::move(changed)),
+      roots_(allowedFolders(options)),
+      store_(std::make_shared<const store::VolumeStore>(
+          options.storeDir, options.storeLimitBytes != 0 ? options.storeLimitBytes : kDefaultStoreLimit)),
+      volumes_(std::make_shared<store::StoreVolumeProvider>(store_)),
+      imports_(importWorkers(options),
+               [this](const std::string& id, bool isSettled) { settled(isSettled, id); }),
+      formulas_(1, [this](const std::string&, bool isSettled) { settled(isSettled, {}); }) {}
+
+void DatasetKeeper::settled(bool isSettled, const std::string& importId) {
+    if (isSettled) ++generation_;
+    changed_(isSettled, isSettled ? importId : std::string{});
+}
+
+std::string DatasetKeeper::idOf(const sheet::DatasetSource& source) {
+    return nlohmann::json{{"files", source.files}, {"options", source.options}}.dump(
+        -1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::uint64_t DatasetKeeper::ensure(const sheet::DatasetSource& source, bool retry) {
+    const auto work = [this, source](const JobControl& control) { return import(source, control); };
+    return retry ? imports_.ensureOrRetry(idOf(source), work) : imports_.ensure(idOf(source), work);
+}
+
+JobState DatasetKeeper::state(const sheet::DatasetSource& source) {
+    ensure(source);
+    return imports_.find(idOf(source)).value();
+}
+
+void DatasetKeeper::cancel(const sheet::DatasetSource& source) { imports_.cancel(idOf(source)); }
+
+std::shared_ptr<const DatasetMeta> DatasetKeeper::import(const sheet::DatasetSource& source,
+                                                         const JobControl& control) {
+    std::vector<std::filesystem::path> files;
+    for (const std::string& file : source.files)
+        files.push_back(roots_.resolve(file));
+    const std::string key = importer_(files, nlohmann::json::parse(source.options), control);
+    return volumes_->describe(key);
+}
+
+std::shared_ptr<const CellContents> DatasetKeeper::contents(const sheet::KeyTable& keys,
+                                                            const sheet::Workbook& workbook) {
+    const std::uint64_t generation = generation_;
+    {
+        const std::lock_guard lock(cacheMutex_);
+        if (cached_.contents && cached_.version == workbook.version && cached_.generation == generation) {
+            return cached_.contents;
+        }
+    }
+    ContentSources sources;
+    sources.import = [&](const std::string& name) {
+        const sheet::DatasetSource& source = workbook.datasets.at(name);
+        return std::pair(idOf(source), state(source));
+    };
+    sources.formula = [&](const FormulaTask& task) {
+        const std::string id = formulaEntryKey(task);
+        formulas_.ensure(id, [this, task](const JobControl& control) {
+            auto meta = computeFormula(task, *store_, *volumes_, options_.memoryBudgetBytes, control);
+            return volumes_->describe(meta->key);
+        });
+        return std::pair(id, formulas_.find(id).value());
+    };
+    auto made = std::make_shared<const CellContents>(evaluateContents(keys, workbook, sources));
+    const std::lock_guard lock(cacheMutex_);
+    cached_ = {workbook.version, generation, made};
+    return made;
+}
+
+double DatasetKeeper::progress(const CellContent& content) const {
+    if (content.state != CellState::Pending) return 1.0;
+    const auto state = (content.computing ? formulas_ : imports_).find(content.job);
+    return state ? std::min(state->progress, 0.999) : 0.0;
+}
+
+void DatasetKeeper::stop() {
+    imports_.stop();
+    formulas_.stop();
+}
+
+bool DatasetKeeper::waitIdle(double seconds) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    const auto left = [&] {
+        return std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
+    };
+    // An import that ends may start a formula.
+    while (!(imports_.idle() && formulas_.idle())) {
+        if (!imports_.waitIdle(std::max(0.0, left())) || !formulas_.waitIdle(std::max(0.0, left())))
+            return false;
+    }
+    return true;
+}
+
+} // namespace voxsheet::engine

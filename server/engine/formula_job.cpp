@@ -1,0 +1,173 @@
+#include "engine/formula_job.h"
+
+#include "base/errors.h"
+#include "engine/sample_reader.h"
+#include "store/store_key.h"
+#include "store/store_writer.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <span>
+
+namespace voxsheet::engine {
+
+namespace {
+
+constexpr long kSlabSamples = 1L << 20; ///< per input: 8 MiB of doubles
+
+int slabSlices(const glm::ivec3& dims) {
+    const long slice = static_cast<long>(dims.x) * dims.y;
+    return static_cast<int>(std::clamp(kSlabSamples / slice, 1L, static_cast<long>(dims.z)));
+}
+
+std::string megabytes(std::uint64_t bytes) {
+    return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
+}
+
+DatasetMeta resultMeta(const FormulaTask& task, const std::string& key) {
+    const DatasetMeta& first = *task.inputs.front().meta;
+    DatasetMeta meta;
+    meta.key = key;
+    meta.sourcePath = task.formula;
+    meta.format = "formula";
+    meta.grid = first.grid;
+    meta.sourceType = ScalarType::F32;
+    meta.lengthUnit = first.lengthUnit;
+    meta.anatomical = first.anatomical;
+    meta.crystal = first.crystal;
+    meta.times = {first.times.at(static_cast<std::size_t>(task.inputs.front().step))};
+    std::vector<std::string> units;
+    for (const FormulaInput& input : task.inputs) {
+        units.push_back(input.meta->fields.at(static_cast<std::size_t>(input.field)).unit);
+    }
+    FieldMeta field;
+    field.name = "result";
+    field.unit = formulaUnit(task.plan, units);
+    field.storedType = ScalarType::F32;
+    field.steps.resize(1);
+    meta.fields.push_back(std::move(field));
+    return meta;
+}
+
+std::vector<std::byte> computeSamples(const FormulaTask& task, const VolumeProvider& volumes,
+                                      const JobControl& control) {
+    const glm::ivec3 dims = task.inputs.front().meta->grid.dims;
+    const auto slice = static_cast<std::size_t>(dims.x) * static_cast<std::size_t>(dims.y);
+    const int slab = slabSlices(dims);
+    std::vector<std::byte> result(slice * static_cast<std::size_t>(dims.z) * sizeof(float));
+    std::vector<float> out(slice * static_cast<std::size_t>(slab));
+    for (int z = 0; z < dims.z; z += slab) {
+        if (control.cancelled && control.cancelled())
+            throw Cancelled("formula " + task.formula, "it is not needed any more");
+        const int count = std::min(slab, dims.z - z);
+        std::vector<std::vector<double>> values;
+        std::vector<sheet::PlanArray> arrays;
+        for (const FormulaInput& input : task.inputs) {
+            const VolumeKey key{input.meta->key, input.field, input.step, 0};
+            values.push_back(readValues(volumes, *input.meta, key, z, count));
+        }
+        for (const auto& each : values)
+            arrays.emplace_back(std::span<const double>(each));
+        const std::span<float> target(out.data(), slice * static_cast<std::size_t>(count));
+        sheet::evaluatePlan(task.plan, arrays, target);
+        std::memcpy(result.data() + slice * static_cast<std::size_t>(z) * sizeof(float), target.data(),
+                    target.size_bytes());
+        if (control.progress) control.progress(0.8 * (z + count) / dims.z);
+    }
+    return result;
+}
+
+} // namespace
+
+std::string formulaEntryKey(const FormulaTask& task) {
+    std::vector<std::string> keys;
+    for (const FormulaInput& input : task.inputs) {
+        keys.push_back(input.meta->key + "/" + std::to_string(input.field) + "/" +
+                       std::to_string(input.step));
+    }
+    return store::formulaKey(sheet::planCacheKey(task.plan, keys), keys);
+}
+
+std::string formulaUnit(const sheet::FormulaPlan& plan, const std::vector<std::string>& inputUnits) {
+    // Per step: no unit known (nullopt), a pure number (""), or a unit.
+    std::vector<std::optional<std::string>> units;
+    std::vector<bool> pure;
+    for (const sheet::PlanStep& step : plan.steps) {
+        std::optional<std::string> unit;
+        bool isPure = false;
+        const auto a = static_cast<std::size_t>(std::max(step.a, 0));
+        const auto b = static_cast<std::size_t>(std::max(step.b, 0));
+        switch (step.op) {
+        case sheet::FormulaOp::Input:
+            if (!inputUnits.at(a).empty()) unit = inputUnits[a];
+            break;
+        case sheet::FormulaOp::Constant:
+            isPure = true;
+            break;
+        case sheet::FormulaOp::Negate:
+        case sheet::FormulaOp::Abs:
+            unit = units[a];
+            isPure = pure[a];
+            break;
+        case sheet::FormulaOp::Add:
+        case sheet::FormulaOp::Subtract:
+            // "density + 1" is read as one of the same unit.
+            isPure = pure[a] && pure[b];
+            if (pure[b] || units[a] == units[b])
+                unit = units[a];
+            else if (pure[a])
+                unit = units[b];
+            break;
+        case sheet::FormulaOp::Multiply:
+            isPure = pure[a] && pure[b];
+            if (pure[a] != pure[b]) unit = pure[a] ? units[b] : units[a];
+            break;
+        case sheet::FormulaOp::Divide:
+            isPure = pure[a] && pure[b];
+            if (pure[b]) unit = units[a];
+            break;
+        }
+        units.push_back(std::move(unit));
+        pure.push_back(isPure);
+    }
+    return units.empty() ? std::string{} : units.back().value_or("");
+}
+
+std::uint64_t formulaMemoryBytes(const FormulaTask& task) {
+    const glm::ivec3 dims = task.inputs.front().meta->grid.dims;
+    const auto samples = static_cast<std::uint64_t>(sampleCount(dims));
+    const auto slab = static_cast<std::uint64_t>(slabSlices(dims)) * static_cast<std::uint64_t>(dims.x) *
+                      static_cast<std::uint64_t>(dims.y);
+    // The result, its pyramid (1/8 + 1/64 + ... of it, with working copies), and one slab of every input.
+    return samples * sizeof(float) * 3 / 2 +
+           slab * (sizeof(double) * (task.inputs.size() + 1) + sizeof(float));
+}
+
+std::shared_ptr<const DatasetMeta> computeFormula(const FormulaTask& task, const store::VolumeStore& store,
+                                                  const VolumeProvider& volumes,
+                                                  std::uint64_t memoryBudgetBytes,
+                                                  const JobControl& control) {
+    const std::string key = formulaEntryKey(task);
+    if (const auto entry = store.open(key)) return entry->meta();
+    const std::uint64_t needed = formulaMemoryBytes(task);
+    if (memoryBudgetBytes != 0 && needed > memoryBudgetBytes) {
+        throw LimitExceeded("formula " + task.formula,
+                            "it needs " + megabytes(needed) + " of memory, the budget is " +
+                                megabytes(memoryBudgetBytes),
+                            "start the server with a larger --memory-budget");
+    }
+    store::StoreWriter writer(store, resultMeta(task, key));
+    writer.addArray(0, 0, computeSamples(task, volumes, control));
+    if (control.progress) control.progress(0.95);
+    writer.commit();
+    const auto entry = store.open(key);
+    if (!entry) {
+        throw IoError("formula " + task.formula, "its result vanished from the volume store",
+                      "make --store-limit larger");
+    }
+    return entry->meta();
+}
+
+} // namespace voxsheet::engine

@@ -1,0 +1,124 @@
+#include "engine/sample_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace voxsheet::engine {
+
+namespace {
+
+int wrapped(int index, int size, bool periodic) {
+    if (!periodic) return std::clamp(index, 0, size - 1);
+    const int rest = index % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+std::optional<double> finite(double value) {
+    return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+/// The slices that one point touches, read on demand: at most two.
+class SliceCache {
+public:
+    SliceCache(const VolumeProvider& volumes, const DatasetMeta& meta, int field, int step)
+        : volumes_(volumes), meta_(meta), key_{meta.key, field, step, 0} {}
+
+    double at(const glm::ivec3& index) {
+        for (Slice& slice : slices_) {
+            if (slice.z == index.z) return pick(slice, index);
+        }
+        Slice& slice = slices_[next_++ % slices_.size()];
+        slice = {index.z, readValues(volumes_, meta_, key_, index.z, 1)};
+        return pick(slice, index);
+    }
+
+private:
+    struct Slice {
+        int z = -1;
+        std::vector<double> values;
+    };
+    double pick(const Slice& slice, const glm::ivec3& index) const {
+        return slice.values[static_cast<std::size_t>(index.y) * static_cast<std::size_t>(meta_.grid.dims.x) +
+                            static_cast<std::size_t>(index.x)];
+    }
+    const VolumeProvider& volumes_;
+    const DatasetMeta& meta_;
+    VolumeKey key_;
+    std::array<Slice, 2> slices_;
+    std::size_t next_ = 0;
+};
+
+} // namespace
+
+std::vector<double> readValues(const VolumeProvider& volumes, const DatasetMeta& meta, const VolumeKey& key,
+                               int zBegin, int zCount) {
+    const FieldMeta& field = meta.fields.at(static_cast<std::size_t>(key.field));
+    const ScalarType type = levelType(field.storedType, key.level);
+    const glm::ivec3 dims = levelDims(meta.grid.dims, key.level);
+    const auto count = static_cast<std::size_t>(sampleCount({dims.x, dims.y, zCount}));
+    std::vector<std::byte> bytes(count * scalarBytes(type));
+    volumes.readSlices(key, zBegin, zCount, bytes);
+    std::vector<double> values(count);
+    visitScalar(type, [&]<typename T>() {
+        for (std::size_t i = 0; i < count; ++i) {
+            T stored;
+            std::memcpy(&stored, bytes.data() + i * sizeof(T), sizeof(T));
+            values[i] = field.valueScale * static_cast<double>(stored) + field.valueOffset;
+        }
+    });
+    return values;
+}
+
+ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& meta, int field, int step) {
+    int level = 0;
+    while (level + 1 < meta.levels() && sampleCount(levelDims(meta.grid.dims, level)) > kSummarySamples)
+        ++level;
+    const glm::ivec3 dims = levelDims(meta.grid.dims, level);
+    const std::vector<double> values = readValues(volumes, meta, {meta.key, field, step, level}, 0, dims.z);
+    std::vector<float> sorted(values.begin(), values.end());
+    double min = std::numeric_limits<double>::infinity();
+    double max = -min;
+    for (const FieldStep& each : meta.fields.at(static_cast<std::size_t>(field)).steps) {
+        if (each.statistics.finiteCount == 0) continue;
+        min = std::min(min, each.statistics.min);
+        max = std::max(max, each.statistics.max);
+    }
+    if (min > max) min = max = 0.0;
+    return summariseValues(sorted, min, max);
+}
+
+std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta, int field,
+                                       int step, const glm::dvec3& world) {
+    const Grid& grid = meta.grid;
+    const glm::dvec3 p(glm::inverse(grid.worldFromIndex) * glm::dvec4(world, 1.0));
+    const IndexBox box = boxIndex(grid);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(p[axis] >= box.low[axis] - 1e-9 && p[axis] <= box.high[axis] + 1e-9)) return std::nullopt;
+    }
+    const auto at = [&](const glm::ivec3& index) {
+        return glm::ivec3(wrapped(index.x, grid.dims.x, grid.periodic.x),
+                          wrapped(index.y, grid.dims.y, grid.periodic.y),
+                          wrapped(index.z, grid.dims.z, grid.periodic.z));
+    };
+    SliceCache slices(volumes, meta, field, step);
+    PointSample sample;
+    sample.nearest = at(glm::ivec3(glm::floor(p + 0.5)));
+    sample.value = finite(slices.at(sample.nearest));
+    const glm::ivec3 base(glm::floor(p));
+    const glm::dvec3 w = p - glm::dvec3(base);
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 offset(corner & 1, (corner >> 1) & 1, corner >> 2);
+        double weight = 1.0;
+        for (int axis = 0; axis < 3; ++axis)
+            weight *= offset[axis] != 0 ? w[axis] : 1.0 - w[axis];
+        if (weight > 0.0) sum += weight * slices.at(at(base + offset));
+    }
+    sample.interpolated = finite(sum);
+    return sample;
+}
+
+} // namespace voxsheet::engine

@@ -1,0 +1,35 @@
+// Samples of the store as values (after slope and intercept).
+#pragma once
+
+#include "engine/default_look.h"
+#include "volume/volume_provider.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace voxsheet::engine {
+
+/// Slices [zBegin, zBegin + zCount) of `key` as values. Throws as VolumeProvider::readSlices.
+[[nodiscard]] std::vector<double> readValues(const VolumeProvider& volumes, const DatasetMeta& meta,
+                                             const VolumeKey& key, int zBegin, int zCount);
+
+/// Distribution of the field's values at a step, from the finest level with at most kSummarySamples samples
+/// (extremes from the statistics of all steps, so that a series keeps one look). Throws as readValues.
+inline constexpr long kSummarySamples = 300'000;
+[[nodiscard]] ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& meta, int field,
+                                          int step);
+
+/// What the level-0 samples say about one point of the world.
+struct PointSample {
+    glm::ivec3 nearest{0};              ///< index of the nearest sample
+    std::optional<double> value;        ///< of the nearest sample; absent: NaN
+    std::optional<double> interpolated; ///< trilinear; absent: one of the eight is NaN, as in the picture
+};
+
+/// Wraps on periodic axes. Empty: the point lies outside the drawn box. Throws as readValues.
+[[nodiscard]] std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta,
+                                                     int field, int step, const glm::dvec3& world);
+
+} // namespace voxsheet::engine

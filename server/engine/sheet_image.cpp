@@ -1,0 +1,286 @@
+#include "engine/sheet_image.h"
+
+#include "base/errors.h"
+#include "engine/axis_ticks.h"
+#include "engine/canvas.h"
+#include "engine/tile_identity.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace voxsheet::engine {
+
+namespace {
+
+/// One cell on its way into the picture.
+struct DrawnCell {
+    sheet::Address address;
+    const sheet::Cell* cell = nullptr; ///< null: blank
+    CellState state = CellState::Empty;
+    PreparedTile tile;
+    sheet::Annotations annotations = sheet::Annotations::All;
+    std::optional<CellLook> look;
+    glm::vec4 background{0.0F};
+};
+
+/// Colours that fit the sheet's own background, so that a white background gives a white figure.
+struct Palette {
+    glm::vec4 page;
+    glm::vec4 text;
+    glm::vec4 quiet;
+    glm::vec4 strip;
+    glm::vec4 error;
+};
+
+float luminance(const glm::vec4& c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
+
+bool isDark(const glm::vec4& background) { return background.w < 0.5F || luminance(background) < 0.5F; }
+
+Palette paletteFor(const glm::vec4& background) {
+    Palette palette;
+    const bool dark = isDark(background);
+    const glm::vec3 shade = dark ? glm::vec3(1.0F) : glm::vec3(0.0F);
+    palette.page = {glm::mix(glm::vec3(background), shade, 0.05F), background.w};
+    palette.strip = {glm::mix(glm::vec3(background), shade, 0.10F), background.w};
+    palette.text = dark ? glm::vec4(0.90F, 0.92F, 0.94F, 1.0F) : glm::vec4(0.10F, 0.11F, 0.12F, 1.0F);
+    palette.quiet = dark ? glm::vec4(0.60F, 0.64F, 0.68F, 1.0F) : glm::vec4(0.35F, 0.37F, 0.40F, 1.0F);
+    palette.error = dark ? glm::vec4(1.0F, 0.55F, 0.45F, 1.0F) : glm::vec4(0.75F, 0.12F, 0.05F, 1.0F);
+    return palette;
+}
+
+glm::vec4 colourOf(const sheet::Colour& colour) {
+    return glm::vec4(glm::dvec4(colour.red(), colour.green(), colour.blue(), colour.alpha()));
+}
+
+sheet::AddressRange usedRange(const sheet::Sheet& sheet) {
+    sheet::AddressRange range{{0, 0}, {0, 0}};
+    for (const auto& [address, cell] : sheet.cells) {
+        if (cell.source.empty()) continue;
+        range.last.column = std::max(range.last.column, address.column);
+        range.last.row = std::max(range.last.row, address.row);
+    }
+    return range;
+}
+
+std::string headerText(const std::map<int, sheet::Header>& headers, int line, const std::string& name) {
+    const auto found = headers.find(line);
+    return found == headers.end() || found->second.title.empty() ? name : name + "  " + found->second.title;
+}
+
+class Composer {
+public:
+    Composer(const SheetImageRequest& request, const sheet::Workbook& workbook, const CellContents& contents,
+             const SheetImageSources& sources)
+        : request_(request), workbook_(workbook), contents_(contents), sources_(sources),
+          sheetIndex_(request.sheet.empty() ? 0 : sheet::sheetIndex(workbook, request.sheet)),
+          sheet_(workbook.sheets[sheetIndex_]), range_(request.range.value_or(usedRange(sheet_))) {
+        if (!sheet_.contains(range_.last)) {
+            throw InvalidInput("range " + sheet::rangeName(range_), "it reaches beyond the sheet",
+                               "the sheet ends at " +
+                                   sheet::addressName(sheet::Address{sheet_.columns - 1, sheet_.rows - 1}))
+                .withField("range");
+        }
+    }
+
+    SheetImage compose() {
+        styleCells();
+        layout_ = layoutSheet(layoutRequest());
+        prepareTiles();
+        const FrameResult frame = renderTiles();
+        Canvas canvas(layout_.sizePixels, palette_.page);
+        drawHeaders(canvas);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const TilePixels* picture = cells_[i].tile.spec ? &frame.tiles.at(next++) : nullptr;
+            drawCell(canvas, i, picture);
+        }
+        image_.pixels = canvas.pixels(request_.format);
+        for (const TilePixels& tile : frame.tiles)
+            image_.pixels.renderMs += tile.renderMs;
+        image_.identity = textIdentity(identity_);
+        return std::move(image_);
+    }
+
+private:
+    sheet::StyleOverlay overlay() const {
+        return {request_.view.all, request_.view.cells, request_.view.request};
+    }
+
+    void styleCells() {
+        for (int row = range_.first.row; row <= range_.last.row; ++row) {
+            for (int column = range_.first.column; column <= range_.last.column; ++column) {
+                DrawnCell cell;
+                cell.address = {column, row};
+                cell.cell = sheet_.find(cell.address);
+                const auto style = sheet::resolveStyle(sources_.keys, sheet_, cell.address, overlay()).style;
+                cell.annotations = request_.annotate ? style.annotations : sheet::Annotations::None;
+                cell.background = colourOf(style.background);
+                cell.state = contentAt(contents_, {sheetIndex_, cell.address}).state;
+                cells_.push_back(std::move(cell));
+            }
+        }
+        const auto values = sheet::resolveLayer(sources_.keys, sheet_, sheet::Layer::sheet());
+        const auto* background = std::get_if<sheet::Colour>(&values.at("background").value);
+        palette_ =
+            paletteFor(background != nullptr ? colourOf(*background) : glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+        annotated_ = std::any_of(cells_.begin(), cells_.end(), [](const DrawnCell& cell) {
+            return cell.annotations != sheet::Annotations::None;
+        });
+    }
+
+    SheetLayoutRequest layoutRequest() const {
+        SheetLayoutRequest layout;
+        layout.sizePixels = request_.sizePixels;
+        layout.columns = range_.columns();
+        layout.rows = range_.rows();
+        layout.title = !request_.title.empty();
+        layout.headers = annotated_ && (layout.columns > 1 || layout.rows > 1);
+        layout.cellTitles = annotated_;
+        for (int row = range_.first.row; row <= range_.last.row; ++row) {
+            const auto letters = headerText(sheet_.rowHeaders, row, sheet::rowName(row)).size();
+            layout.rowHeaderLetters = std::max(layout.rowHeaderLetters, static_cast<int>(letters));
+        }
+        return layout;
+    }
+
+    void prepareTiles() {
+        identity_ = request_.title + "\n" + sheet::rangeName(range_) + "\n" +
+                    std::to_string(layout_.sizePixels.x) + "x" + std::to_string(layout_.sizePixels.y) +
+                    (request_.annotate ? "a" : "-") + std::to_string(static_cast<int>(request_.format));
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            DrawnCell& cell = cells_[i];
+            TileQuality quality;
+            quality.sizePixels = layout_.pictures[i].size();
+            cell.tile = sources_.tiles.prepare(workbook_, sheetIndex_, cell.address, request_.view, quality,
+                                               contents_);
+            if (cell.tile.spec) {
+                cell.look =
+                    sources_.tiles.look(workbook_, sheetIndex_, cell.address, request_.view, contents_);
+            }
+            if (cell.state == CellState::Pending) image_.final = false;
+            identity_ += "\n" + cell.tile.identity + std::to_string(static_cast<int>(cell.annotations)) +
+                         (cell.cell != nullptr ? sheet::cellTitle(*cell.cell) : "");
+        }
+    }
+
+    FrameResult renderTiles() const {
+        std::vector<TileSpec> specs;
+        for (const DrawnCell& cell : cells_) {
+            if (cell.tile.spec) specs.push_back(*cell.tile.spec);
+        }
+        return specs.empty() ? FrameResult{} : sources_.render(specs, request_.format);
+    }
+
+    void drawHeaders(Canvas& canvas) {
+        const int font = layout_.fontPixels;
+        if (!request_.title.empty()) {
+            const PixelRect& area = layout_.title;
+            canvas.text({layout_.pictures.front().low.x, (area.low.y + area.high.y) / 2}, TextAlign::Left,
+                        request_.title, font * 3 / 2, palette_.text, area.size().x - 2 * font);
+        }
+        for (std::size_t i = 0; i < layout_.columnHeaders.size(); ++i) {
+            const PixelRect& area = layout_.columnHeaders[i];
+            const int column = range_.first.column + static_cast<int>(i);
+            const std::string text = headerText(sheet_.columnHeaders, column, sheet::columnName(column));
+            canvas.text((area.low + area.high) / 2, TextAlign::Centre, text, font, palette_.quiet,
+                        area.size().x);
+            identity_ += "\n" + text;
+        }
+        for (std::size_t i = 0; i < layout_.rowHeaders.size(); ++i) {
+            const PixelRect& area = layout_.rowHeaders[i];
+            const int row = range_.first.row + static_cast<int>(i);
+            const std::string text = headerText(sheet_.rowHeaders, row, sheet::rowName(row));
+            canvas.text((area.low + area.high) / 2, TextAlign::Centre, text, font, palette_.quiet,
+                        area.size().x - 4);
+            identity_ += "\n" + text;
+        }
+    }
+
+    void drawCell(Canvas& canvas, std::size_t index, const TilePixels* picture) {
+        const DrawnCell& cell = cells_[index];
+        const PixelRect& area = layout_.pictures[index];
+        if (picture != nullptr && picture->error.empty()) {
+            canvas.put(*picture, area.low);
+            if (cell.annotations == sheet::Annotations::All) drawColourBar(canvas, cell, area);
+        } else {
+            canvas.fill(area, cell.background);
+            drawState(canvas, cell, area, picture);
+        }
+        if (layout_.cellTitles.empty() || cell.cell == nullptr || cell.cell->source.empty()) return;
+        if (cell.annotations == sheet::Annotations::None) return;
+        const PixelRect& strip = layout_.cellTitles[index];
+        canvas.fill(strip, palette_.strip);
+        const int font = layout_.fontPixels;
+        canvas.text({strip.low.x + font / 2, (strip.low.y + strip.high.y) / 2}, TextAlign::Left,
+                    sheet::cellTitle(*cell.cell), font, palette_.text, strip.size().x - font);
+    }
+
+    void drawState(Canvas& canvas, const DrawnCell& cell, const PixelRect& area, const TilePixels* picture) {
+        std::string code = cell.tile.code;
+        std::string sentence = cell.tile.message;
+        if (picture != nullptr) {
+            code = "#GPU!";
+            sentence = picture->error;
+        }
+        const Palette colours = paletteFor(cell.background);
+        const int font = layout_.fontPixels;
+        PixelRect inside{area.low + glm::ivec2(font), area.high - glm::ivec2(font)};
+        if (!code.empty()) {
+            ++image_.failedCells;
+            canvas.text({inside.low.x, inside.low.y + font}, TextAlign::Left, code, font * 3 / 2,
+                        colours.error, inside.size().x);
+            inside.low.y += font * 5 / 2;
+        }
+        if (!sentence.empty()) canvas.paragraph(inside, sentence, font, colours.text);
+    }
+
+    /// On the picture's right edge: the colours from low to high, round numbers, and the unit.
+    void drawColourBar(Canvas& canvas, const DrawnCell& cell, const PixelRect& area) {
+        const int font = std::max(8, layout_.fontPixels * 4 / 5);
+        const int height = area.size().y * 11 / 20;
+        if (height < 5 * font || area.size().x < 12 * font) return;
+        const TransferFunction& function = cell.look->transfer.function;
+        const Palette colours = paletteFor(cell.background);
+        const int width = std::max(5, font * 3 / 4);
+        const int right = area.high.x - font;
+        const int top = area.low.y + (area.size().y - height) / 2 + font / 2;
+        for (int y = 0; y < height; ++y) {
+            const double position = 1.0 - (y + 0.5) / height;
+            const glm::vec4 colour(evaluateTransfer(function, transferValue(function, position)));
+            canvas.fill({{right - width, top + y}, {right, top + y + 1}}, {glm::vec3(colour), 1.0F});
+        }
+        for (const Tick& tick : axisTicks(function, std::clamp(height / (font * 3), 2, 6))) {
+            const int y = top + static_cast<int>((1.0 - tick.position) * (height - 1));
+            canvas.fill({{right - width - font / 4, y}, {right - width, y + 1}}, colours.quiet);
+            canvas.text({right - width - font / 2, y}, TextAlign::Right, tick.label, font, colours.text,
+                        area.size().x / 3);
+        }
+        const FieldMeta& field = cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
+        std::string caption = field.unit;
+        if (cell.look->sharedRange) caption += caption.empty() ? "shared" : ", shared";
+        canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet, area.size().x / 2);
+    }
+
+    const SheetImageRequest& request_;
+    const sheet::Workbook& workbook_;
+    const CellContents& contents_;
+    const SheetImageSources& sources_;
+    std::size_t sheetIndex_;
+    const sheet::Sheet& sheet_;
+    sheet::AddressRange range_;
+    std::vector<DrawnCell> cells_; ///< row by row
+    Palette palette_{};
+    bool annotated_ = false;
+    SheetLayout layout_;
+    std::string identity_; ///< text over everything that decides the picture
+    SheetImage image_;
+};
+
+} // namespace
+
+SheetImage composeSheet(const SheetImageRequest& request, const sheet::Workbook& workbook,
+                        const CellContents& contents, const SheetImageSources& sources) {
+    return Composer(request, workbook, contents, sources).compose();
+}
+
+} // namespace voxsheet::engine

@@ -1,0 +1,53 @@
+// Makes cells ready to draw: style, field, range, colours, camera and identity.
+#pragma once
+
+#include "engine/cell_contents.h"
+#include "engine/cell_resolver.h"
+#include "engine/engine.h"
+#include "engine/look_cache.h"
+
+#include <memory>
+#include <string>
+
+namespace voxsheet::engine {
+
+/// How one cell shows its dataset.
+struct CellLook {
+    sheet::ResolvedStyle resolved;
+    FieldAndStep shown;
+    ResolvedTransfer transfer;
+    std::shared_ptr<const DatasetMeta> meta;
+    bool sharedRange = false;
+};
+
+/// Thread-safe.
+class TileMaker {
+public:
+    TileMaker(const sheet::KeyTable& keys, const ColourMapTable& maps,
+              std::shared_ptr<const VolumeProvider> volumes, std::string environment)
+        : keys_(keys), maps_(maps), cache_(std::move(volumes)), environment_(std::move(environment)) {}
+
+    /// The cell must be Ready. Throws InvalidInput (with field) if keys do not agree or the field is not
+    /// there, NotFound if the cell lies outside the sheet, and what the provider throws.
+    [[nodiscard]] CellLook look(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                const sheet::Address& cell, const View& view, const CellContents& contents);
+
+    /// Errors of the cell's own are values in the result. Errors of `view.request` are thrown: the caller
+    /// sent them.
+    [[nodiscard]] PreparedTile prepare(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                       const sheet::Address& cell, const View& view,
+                                       const TileQuality& quality, const CellContents& contents);
+
+private:
+    [[nodiscard]] ValueSummary sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                             const sheet::Address& asking, const CellLook& own,
+                                             const CellContents& contents);
+    void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
+
+    const sheet::KeyTable& keys_;
+    const ColourMapTable& maps_;
+    LookCache cache_;
+    std::string environment_; ///< device, driver, build: part of every identity
+};
+
+} // namespace voxsheet::engine
