@@ -237,4 +237,11 @@ float maxOpacity(const TransferTable& table, double low, double high) {
     return result;
 }
 
+float largestOpacity(const TransferTable& table) {
+    float result = std::max(table.below.w, table.above.w);
+    for (const auto& entry : table.entries)
+        result = std::max(result, entry.w);
+    return result;
+}
+
 } // namespace voxsheet

@@ -99,4 +99,7 @@ inline constexpr int kTransferTableEntries = 4096;
 /// skipping asks per brick. An empty interval (low > high, a brick of NaN) gives 0.
 [[nodiscard]] float maxOpacity(const TransferTable& table, double low, double high);
 
+/// Largest opacity of the table, below and above included.
+[[nodiscard]] float largestOpacity(const TransferTable& table);
+
 } // namespace voxsheet

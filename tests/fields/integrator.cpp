@@ -115,7 +115,8 @@ public:
         if (scene_.tile.technique != Technique::Mip) return {colour_, 1.0 - transmittance_};
         if (largest_ == -std::numeric_limits<double>::infinity()) return glm::dvec4(0.0);
         const auto rgba = classify(*scene_.tile.transfer, largest_);
-        return {glm::dvec3(rgba) * rgba.w, rgba.w};
+        const double alpha = rgba.w / largestOpacity(*scene_.tile.transfer);
+        return {glm::dvec3(rgba) * alpha, alpha};
     }
 
 private:
@@ -151,13 +152,14 @@ glm::dvec4 throughSlabs(const Scene& scene, const TextureRay& ray, double centre
     return sum.result();
 }
 
+/// Of every n-th pixel of every n-th row.
 template <typename PixelOfRay>
-Picture overPixels(const Scene& scene, PixelOfRay pixelOfRay) {
-    Picture picture(scene.tile.sizePixels);
+Picture overPixels(const Scene& scene, int every, PixelOfRay pixelOfRay) {
+    Picture picture((scene.tile.sizePixels + every - 1) / every);
     parallelFor(picture.size.y, 4, [&](long begin, long end) {
         for (int y = static_cast<int>(begin); y < end; ++y)
             for (int x = 0; x < picture.size.x; ++x)
-                if (const auto ray = traceBox(scene, rayOfPixel(scene, x + 0.5, y + 0.5)))
+                if (const auto ray = traceBox(scene, rayOfPixel(scene, x * every + 0.5, y * every + 0.5)))
                     picture.at(x, y) = pixelOfRay(*ray);
     });
     return picture;
@@ -170,19 +172,31 @@ Picture integrateLikeTechnique(const TileSpec& tile, const Grid& grid, const glm
     const auto scene = makeScene(tile, grid, levelDims, value);
     if (tile.technique != Technique::Slices)
         return overPixels(
-            scene, [&](const TextureRay& ray) { return alongRay(scene, ray, tile.sampleDistanceVoxels); });
+            scene, 1, [&](const TextureRay& ray) { return alongRay(scene, ray, tile.sampleDistanceVoxels); });
     const double centreDepth = -(tile.camera.viewFromWorld * glm::dvec4(centreWorld(grid), 1.0)).z;
     const auto ahead = glm::dmat3(scene.worldFromView) * glm::dvec3(0.0, 0.0, -1.0);
     const auto voxels = glm::dmat3(scene.textureFromWorld) * ahead * scene.levelDims;
     const double slabDepth = tile.sampleDistanceVoxels / glm::length(voxels);
     return overPixels(
-        scene, [&](const TextureRay& ray) { return throughSlabs(scene, ray, centreDepth, slabDepth); });
+        scene, 1, [&](const TextureRay& ray) { return throughSlabs(scene, ray, centreDepth, slabDepth); });
 }
 
 Picture integrateConverged(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelDims,
-                           const ValueAt& value, double stepVoxels) {
+                           const ValueAt& value, double stepVoxels, int everyNthPixel) {
     const auto scene = makeScene(tile, grid, levelDims, value);
-    return overPixels(scene, [&](const TextureRay& ray) { return alongRay(scene, ray, stepVoxels); });
+    return overPixels(scene, everyNthPixel,
+                      [&](const TextureRay& ray) { return alongRay(scene, ray, stepVoxels); });
+}
+
+double pathVoxels(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelDims) {
+    const ValueAt none;
+    const auto scene = makeScene(tile, grid, levelDims, none);
+    double sum = 0.0;
+    for (int y = 0; y < tile.sizePixels.y; ++y)
+        for (int x = 0; x < tile.sizePixels.x; ++x)
+            if (const auto ray = traceBox(scene, rayOfPixel(scene, x + 0.5, y + 0.5)))
+                sum += (ray->leave - ray->enter) * ray->voxelsPerDepth;
+    return sum;
 }
 
 } // namespace voxsheet::fields

@@ -22,6 +22,11 @@ using ValueAt = std::function<double(const glm::dvec3& texture)>;
 /// The same picture with stretches of `stepVoxels` voxels, from the front of the box to its back: converged
 /// as the step goes to 0. Maximum projection takes the largest of all samples.
 [[nodiscard]] Picture integrateConverged(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelDims,
-                                         const ValueAt& value, double stepVoxels = 1.0 / 24.0);
+                                         const ValueAt& value, double stepVoxels = 1.0 / 24.0,
+                                         int everyNthPixel = 1);
+
+/// Voxels of the level that all rays of the picture pass inside the box, in sum: divided by the distance of
+/// samples, their number.
+[[nodiscard]] double pathVoxels(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelDims);
 
 } // namespace voxsheet::fields

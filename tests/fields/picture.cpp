@@ -23,6 +23,14 @@ Picture pictureFromFloats(glm::ivec2 size, const std::vector<float>& floats) {
     return picture;
 }
 
+Picture everyNth(const Picture& picture, int n) {
+    Picture result((picture.size + n - 1) / n);
+    for (int y = 0; y < result.size.y; ++y)
+        for (int x = 0; x < result.size.x; ++x)
+            result.at(x, y) = picture.at(x * n, y * n);
+    return result;
+}
+
 Difference difference(const Picture& a, const Picture& b) {
     if (a.size != b.size) throw InvalidInput("pictures to compare", "their sizes differ");
     Difference result;

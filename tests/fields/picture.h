@@ -26,6 +26,9 @@ struct Picture {
 /// From `floats`, size.x * size.y * 4, row 0 at the bottom.
 [[nodiscard]] Picture pictureFromFloats(glm::ivec2 size, const std::vector<float>& floats);
 
+/// Pixels (n i, n j) as a picture of ceil(size / n).
+[[nodiscard]] Picture everyNth(const Picture& picture, int n);
+
 struct Difference {
     double psnr = 0.0; ///< dB, peak 1, over red, green and blue; 200 when the pictures are equal
     double psnrAlpha = 0.0;

@@ -1,8 +1,8 @@
 // VTK as a second opinion: an independent renderer on the same scene must give the same picture, up to its
 // own errors.
 #include "fields/integrator.h"
+#include "fields/scenes.h"
 #include "image/png_writer.h"
-#include "image/scenes.h"
 #include "image/tile_painter.h"
 #include "image/vtk_peer.h"
 
@@ -26,11 +26,11 @@ fields::Picture inEightBits(fields::Picture picture) {
     return picture;
 }
 
-using Case = std::tuple<ScalarType, Geometry, Projection>;
+using Case = std::tuple<ScalarType, fields::Geometry, Projection>;
 
 std::string caseName(const testing::TestParamInfo<Case>& info) {
     const auto [type, geometry, projection] = info.param;
-    return std::string(scalarName(type)) + "_" + nameOf(geometry) + "_" + nameOf(projection);
+    return std::string(scalarName(type)) + "_" + fields::nameOf(geometry) + "_" + fields::nameOf(projection);
 }
 
 class VtkAgreement : public testing::TestWithParam<Case> {};
@@ -38,16 +38,17 @@ class VtkAgreement : public testing::TestWithParam<Case> {};
 TEST_P(VtkAgreement, IsNoNearerToTheTruth) {
     const auto [type, geometry, projection] = GetParam();
     const auto field = fields::gaussianSum();
-    const auto grid = gridOf(geometry, kSamples);
+    const auto grid = fields::gridOf(geometry, kSamples);
     const auto sampled = fields::sampleField(field, grid, type, "gauss");
     TilePainter painter;
     painter.volumes().add(sampled.meta, sampled.arrays);
     VtkPeer peer(sampled, VtkMapper::Gpu);
     const fields::Interpolant interpolant(painter.volumes(), {"gauss", 0, 0, 0});
     for (const bool filled : {true, false}) {
-        auto tile = tileOf("gauss", grid, Technique::Raycast, kPixels);
-        tile.camera = cameraOf(grid, projection);
-        tile.transfer = filled ? filledTable(field.low, field.high) : sparseTable(field.low, field.high);
+        auto tile = fields::tileOf("gauss", grid, Technique::Raycast, kPixels);
+        tile.camera = fields::cameraOf(grid, projection);
+        tile.transfer =
+            filled ? fields::filledTable(field.low, field.high) : fields::sparseTable(field.low, field.high);
         const auto truth = fields::integrateConverged(
             tile, grid, grid.dims, [&](const glm::dvec3& texture) { return interpolant.at(texture); },
             1.0 / 12.0);
@@ -61,9 +62,9 @@ TEST_P(VtkAgreement, IsNoNearerToTheTruth) {
             std::printf("%s %s %-8s to the converged integral: voxsheet %.1f dB (p99.9 %.1e), VTK %.1f dB "
                         "(p99.9 %.1e); "
                         "apart %.1f dB\n",
-                        caseName({GetParam(), 0}).c_str(), filled ? "filled" : "sparse", nameOf(technique),
-                        ourDistance.psnr, ourDistance.p999, theirDistance.psnr, theirDistance.p999,
-                        apart.psnr);
+                        caseName({GetParam(), 0}).c_str(), filled ? "filled" : "sparse",
+                        fields::nameOf(technique), ourDistance.psnr, ourDistance.p999, theirDistance.psnr,
+                        theirDistance.p999, apart.psnr);
             // At one distance of samples both are limited by it; the phase of the samples moves the figure by
             // half a decibel.
             EXPECT_GE(ourDistance.psnr, theirDistance.psnr - 1.0);
@@ -80,7 +81,8 @@ TEST_P(VtkAgreement, IsNoNearerToTheTruth) {
 
 INSTANTIATE_TEST_SUITE_P(All, VtkAgreement,
                          testing::Combine(testing::Values(ScalarType::U8, ScalarType::U16, ScalarType::F32),
-                                          testing::Values(Geometry::Isotropic, Geometry::Anisotropic),
+                                          testing::Values(fields::Geometry::Isotropic,
+                                                          fields::Geometry::Anisotropic),
                                           testing::Values(Projection::Perspective, Projection::Orthographic)),
                          caseName);
 

@@ -9,6 +9,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkRenderer.h>
@@ -23,6 +24,25 @@
 
 namespace voxsheet::image {
 namespace {
+
+/// GLEW looks for a GLX display, finds none and reports a failure, but has loaded the functions by then. VTK
+/// would therefore initialise again for every frame, which would be unfair to it.
+class PeerWindow : public vtkGenericOpenGLRenderWindow {
+public:
+    static PeerWindow* New();
+    vtkTypeMacro(PeerWindow, vtkGenericOpenGLRenderWindow);
+
+    void OpenGLInitContext() override {
+        if (this->Initialized) return;
+        const int warnings = vtkObject::GetGlobalWarningDisplay();
+        vtkObject::SetGlobalWarningDisplay(0);
+        this->Superclass::OpenGLInitContext();
+        vtkObject::SetGlobalWarningDisplay(warnings);
+        this->Initialized = true;
+        this->GlewInitValid = true;
+    }
+};
+vtkStandardNewMacro(PeerWindow);
 
 int vtkTypeOf(ScalarType type) {
     switch (type) {
@@ -170,7 +190,7 @@ private:
     Grid grid_;
     FieldMeta field_;
     std::shared_ptr<const TransferTable> table_;
-    vtkNew<vtkGenericOpenGLRenderWindow> window_;
+    vtkNew<PeerWindow> window_;
     vtkNew<vtkRenderer> renderer_;
     vtkNew<vtkVolume> volume_;
     vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper> gpu_;

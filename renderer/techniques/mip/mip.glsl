@@ -14,6 +14,7 @@ uniform ivec2 targetSize;
 uniform int firstRow;
 uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 uniform float sampleDistanceVoxels;
+uniform float opacityScale; // 1 / (the table's largest opacity)
 uniform float texelSign; // -1 where values fall with texels
 
 const float kNone = -3.0e38;
@@ -57,6 +58,6 @@ void main() {
     Ray ray = cameraRay(vec2(pixel) + 0.5);
     vec2 span = boxSpan(ray);
     float largest = span.x < span.y ? largestTexel(ray, span) : kNone;
-    vec4 rgba = largest > kNone ? overLength(classifyTexel(texelSign * largest), 1.0) : vec4(0.0);
+    vec4 rgba = largest > kNone ? opacityScale * overLength(classifyTexel(texelSign * largest), 1.0) : vec4(0.0);
     imageStore(target, pixel, rgba);
 }

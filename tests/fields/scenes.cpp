@@ -1,10 +1,10 @@
-#include "image/scenes.h"
+#include "fields/scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 
-namespace voxsheet::image {
+namespace voxsheet::fields {
 namespace {
 
 constexpr double kFovDegrees = 30.0;
@@ -106,4 +106,4 @@ TileSpec tileOf(const std::string& key, const Grid& grid, Technique technique, i
     return tile;
 }
 
-} // namespace voxsheet::image
+} // namespace voxsheet::fields

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace voxsheet::image {
+namespace voxsheet::fields {
 
 enum class Geometry { Isotropic, Anisotropic, Sheared };
 
@@ -30,4 +30,4 @@ enum class Geometry { Isotropic, Anisotropic, Sheared };
 /// A square picture of the dataset `key` on `grid`.
 [[nodiscard]] TileSpec tileOf(const std::string& key, const Grid& grid, Technique technique, int pixels);
 
-} // namespace voxsheet::image
+} // namespace voxsheet::fields

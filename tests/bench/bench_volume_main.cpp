@@ -1,0 +1,9 @@
+// bench_volume: times and quality of the volume rendering techniques, as one JSON object.
+#include "bench/bench_options.h"
+
+int main(int count, char** arguments) {
+    using namespace voxsheet::bench;
+    return runBenchProgram(
+        count, arguments, "bench_volume [OPTIONS] --json",
+        [](const VolumeBenchOptions& options) { return volumeBench(options, tellProgress); });
+}

@@ -1,0 +1,143 @@
+#include "bench/volume_bench.h"
+
+#include "base/errors.h"
+#include "bench/json_text.h"
+#include "fields/integrator.h"
+#include "volume/memory_volume_provider.h"
+
+#include <algorithm>
+
+namespace voxsheet::bench {
+namespace {
+
+constexpr int kTruthPixelStride = 8;
+constexpr double kTruthStepVoxels = 1.0 / 16.0;
+constexpr double kDegreesPerFrame = 7.0;
+const char* const kDataset = "bench";
+
+fields::AnalyticField benchField() { return fields::gaussianSum(); }
+
+} // namespace
+
+VolumeScene::VolumeScene(const VolumeBenchOptions& options, bool filled)
+    : options_(options), filled_(filled),
+      sampled_(fields::sampleField(benchField(), fields::gridOf(fields::Geometry::Isotropic, options.samples),
+                                   options.type, kDataset)) {
+    const auto field = benchField();
+    table_ = filled ? fields::filledTable(field.low, field.high) : fields::sparseTable(field.low, field.high);
+}
+
+std::string VolumeScene::name() const {
+    const auto n = std::to_string(options_.samples);
+    const auto p = std::to_string(options_.pixels);
+    return n + "^3 " + scalarName(options_.type) + " " + p + "x" + p + (filled_ ? " filled" : " sparse");
+}
+
+TileSpec VolumeScene::tile(Technique technique, int frame) const {
+    const auto& grid = sampled_.meta.grid;
+    auto tile = fields::tileOf(kDataset, grid, technique, options_.pixels);
+    tile.transfer = table_;
+    // The material keeps its looks at every size of the volume: opacities hold over 1/256 of its edge.
+    tile.unitLengthWorld = options_.samples / 256.0;
+    tile.camera = fields::cameraOf(grid, Projection::Perspective, 30.0 + kDegreesPerFrame * frame, 25.0);
+    return tile;
+}
+
+const fields::Picture& VolumeScene::truth(Technique technique) {
+    auto& picture = technique == Technique::Mip ? maximum_ : integral_;
+    if (picture.pixels.empty()) {
+        MemoryVolumeProvider provider;
+        provider.add(sampled_.meta, sampled_.arrays);
+        const fields::Interpolant interpolant(provider, {kDataset, 0, 0, 0});
+        const auto view = tile(technique, 0);
+        picture = fields::integrateConverged(
+            view, sampled_.meta.grid, interpolant.dims(),
+            [&](const glm::dvec3& texture) { return interpolant.at(texture); }, kTruthStepVoxels,
+            kTruthPixelStride);
+    }
+    return picture;
+}
+
+fields::Difference VolumeScene::distance(Technique technique, const fields::Picture& picture) {
+    return fields::difference(fields::everyNth(picture, kTruthPixelStride), truth(technique));
+}
+
+fields::Picture pictureOf(const TilePixels& pixels) {
+    fields::Picture picture(pixels.size);
+    const auto width = static_cast<std::size_t>(pixels.size.x);
+    for (int y = 0; y < pixels.size.y; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto row = static_cast<std::size_t>(pixels.size.y - 1 - y); // top row first there
+            const auto* rgba = pixels.rgba8.data() + (row * width + x) * 4;
+            picture.at(static_cast<int>(x), y) = glm::dvec4(rgba[0], rgba[1], rgba[2], rgba[3]) / 255.0;
+        }
+    return picture;
+}
+
+FrameResult drawTile(RenderThread& thread, const TileSpec& tile) {
+    FrameSpec frame;
+    frame.tiles.push_back(tile);
+    auto result = thread.submit(std::move(frame), FramePriority::Export).get();
+    if (!result.tiles.at(0).error.empty()) throw GpuError("bench picture", result.tiles[0].error);
+    return result;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) throw InvalidInput("median", "there is no value");
+    std::sort(values.begin(), values.end());
+    const auto middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+namespace {
+
+VolumeBenchCase runCase(RenderThread& thread, VolumeScene& scene, const std::string& name,
+                        Technique technique, const VolumeBenchOptions& options) {
+    VolumeBenchCase result;
+    result.name = name;
+    const auto first = scene.tile(technique, 0);
+    const auto picture = pictureOf(drawTile(thread, first).tiles[0]); // also compiles and uploads
+    const auto distance = scene.distance(technique, picture);
+    result.psnr = distance.psnr;
+    result.p999 = distance.p999;
+    const auto& grid = scene.sampled().meta.grid;
+    result.samples = fields::pathVoxels(first, grid, grid.dims) / first.sampleDistanceVoxels;
+    std::vector<double> times;
+    for (int frame = 0; frame < options.frames; ++frame)
+        times.push_back(drawTile(thread, scene.tile(technique, frame)).wallMs);
+    result.ms = median(std::move(times));
+    return result;
+}
+
+std::string jsonOf(const VolumeBenchCase& one) {
+    return jsonObject({{"name", jsonString(one.name)},
+                       {"ms", jsonNumber(one.ms)},
+                       {"samples", jsonNumber(one.samples)},
+                       {"psnr", jsonNumber(one.psnr)},
+                       {"p999", jsonNumber(one.p999)}});
+}
+
+} // namespace
+
+std::string volumeBench(const VolumeBenchOptions& options,
+                        const std::function<void(const std::string&)>& progress) {
+    VolumeScene sparse(options, false);
+    VolumeScene filled(options, true);
+    auto provider = std::make_shared<MemoryVolumeProvider>();
+    provider->add(sparse.sampled().meta, sparse.sampled().arrays);
+    RenderOptions renderOptions;
+    renderOptions.device = options.device;
+    RenderThread thread(provider, renderOptions);
+    std::vector<std::string> cases;
+    for (auto* scene : {&sparse, &filled})
+        for (const auto technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
+            const auto name = scene->name() + " " + fields::nameOf(technique);
+            progress(name);
+            cases.push_back(jsonOf(runCase(thread, *scene, name, technique, options)));
+        }
+    return jsonObject({{"device", jsonString(thread.device().eglPlatform)},
+                       {"renderer", jsonString(thread.device().renderer)},
+                       {"cases", jsonArray(cases)}});
+}
+
+} // namespace voxsheet::bench

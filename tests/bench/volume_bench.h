@@ -1,0 +1,67 @@
+// The volume rendering bench: one analytic volume, thin material everywhere ("filled") or only the top of its
+// range ("sparse"), a camera that goes round it; times from state to host pixels, and the pictures' distance
+// from the converged integral.
+#pragma once
+
+#include "fields/picture.h"
+#include "fields/sampled_field.h"
+#include "fields/scenes.h"
+#include "frame/render_thread.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace voxsheet::bench {
+
+struct VolumeBenchOptions {
+    int samples = 256; ///< of the volume, per axis
+    int pixels = 512;  ///< of the square picture
+    int frames = 20;   ///< per case; the median is reported
+    int device = -1;   ///< as RenderOptions::device
+    ScalarType type = ScalarType::U8;
+};
+
+struct VolumeBenchCase {
+    std::string name;
+    double ms = 0.0;      ///< median, from state to host pixels
+    double samples = 0.0; ///< in the box at this distance, for the first view: before any is skipped
+    double psnr = 0.0;    ///< dB, of the 8-bit picture of the first view against the converged integral, over
+                          ///< every 8th pixel
+    double p999 = 0.0;    ///< 99.9th percentile of its error
+};
+
+/// A scene that is drawn by turns: the volume, its table and the view of a frame.
+class VolumeScene {
+public:
+    VolumeScene(const VolumeBenchOptions& options, bool filled);
+
+    [[nodiscard]] const fields::SampledField& sampled() const { return sampled_; }
+    [[nodiscard]] TileSpec tile(Technique technique, int frame) const;
+    /// The converged picture of frame 0, every 8th pixel. Maximum projection has its own.
+    [[nodiscard]] const fields::Picture& truth(Technique technique);
+    [[nodiscard]] fields::Difference distance(Technique technique, const fields::Picture& picture);
+    [[nodiscard]] std::string name() const;
+
+private:
+    VolumeBenchOptions options_;
+    bool filled_;
+    fields::SampledField sampled_;
+    std::shared_ptr<const TransferTable> table_;
+    fields::Picture integral_;
+    fields::Picture maximum_;
+};
+
+/// The picture as the render thread gave it.
+[[nodiscard]] fields::Picture pictureOf(const TilePixels& pixels);
+/// Draws one tile and waits. Throws GpuError or the tile's error.
+[[nodiscard]] FrameResult drawTile(RenderThread& thread, const TileSpec& tile);
+[[nodiscard]] double median(std::vector<double> values);
+
+/// Every technique on both scenes, as the JSON object {"device": …, "renderer": …, "cases": [{"name", "ms",
+/// "samples", "psnr", "p999"}]}. `progress` is told the name of each case.
+[[nodiscard]] std::string volumeBench(const VolumeBenchOptions& options,
+                                      const std::function<void(const std::string&)>& progress);
+
+} // namespace voxsheet::bench

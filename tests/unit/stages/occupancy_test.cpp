@@ -1,0 +1,113 @@
+#include "stages/occupancy.h"
+
+#include "stages/empty_space.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+
+namespace voxsheet {
+namespace {
+
+/// Opaque for values >= 0.5 only.
+std::shared_ptr<const TransferTable> upperHalf() {
+    TransferFunction function;
+    function.colours = {{0.0, glm::dvec3(1.0)}};
+    function.opacities = {{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {1.0, 0.5}};
+    return buildTransferTable(function);
+}
+
+/// A level of zeros with one sample of 1, as its min-max grid.
+MinMaxGrid gridWithOneSample(const glm::ivec3& dims, const glm::ivec3& sample, const glm::bvec3& periodic) {
+    std::vector<float> samples(static_cast<std::size_t>(dims.x * dims.y * dims.z), 0.0F);
+    samples[static_cast<std::size_t>((sample.z * dims.y + sample.y) * dims.x + sample.x)] = 1.0F;
+    return buildMinMaxGrid({ScalarType::F32, dims, std::as_bytes(std::span(samples))}, periodic);
+}
+
+TEST(Occupancy, MarksEverythingWithinReachOfWhatCanBeSeen) {
+    std::mt19937 random(11);
+    const auto table = upperHalf();
+    for (const bool periodic : {false, true}) {
+        const glm::ivec3 dims(37, 24, 45);
+        for (int trial = 0; trial < 60; ++trial) {
+            glm::ivec3 sample(0);
+            for (int axis = 0; axis < 3; ++axis)
+                sample[axis] = std::uniform_int_distribution<int>(0, dims[axis] - 1)(random);
+            const auto layout = CellLayout::of(dims);
+            const auto cells = occupiedCells(gridWithOneSample(dims, sample, glm::bvec3(periodic)), dims,
+                                             glm::bvec3(periodic), *table);
+            ASSERT_EQ(cells.size(),
+                      static_cast<std::size_t>(layout.cells.x * layout.cells.y * layout.cells.z));
+            // A stretch of a ray up to reachSamples long on either side of a point within one sample of the
+            // visible one.
+            for (int look = 0; look < 50; ++look) {
+                glm::ivec3 cell(0);
+                for (int axis = 0; axis < 3; ++axis) {
+                    std::uniform_real_distribution<double> around(-CellLayout::reachSamples - 0.99,
+                                                                  CellLayout::reachSamples + 0.99);
+                    double position = sample[axis] + 0.5 + around(random);
+                    if (periodic) position -= dims[axis] * std::floor(position / dims[axis]);
+                    cell[axis] = std::clamp(static_cast<int>(position / layout.cellSamples), 0,
+                                            layout.cells[axis] - 1);
+                }
+                EXPECT_EQ(cells[static_cast<std::size_t>((cell.z * layout.cells.y + cell.y) * layout.cells.x +
+                                                         cell.x)],
+                          1);
+            }
+        }
+    }
+}
+
+TEST(Occupancy, LeavesOutWhatIsFarFromAnythingVisible) {
+    const glm::ivec3 dims(64);
+    const auto cells = occupiedCells(gridWithOneSample(dims, {4, 4, 4}, glm::bvec3(false)), dims,
+                                     glm::bvec3(false), *upperHalf());
+    const auto marked = std::count(cells.begin(), cells.end(), std::uint8_t{1});
+    EXPECT_GT(marked, 0);
+    EXPECT_LT(marked, static_cast<long>(cells.size()) / 8);
+    EXPECT_EQ(cells.back(), 0);
+}
+
+TEST(Occupancy, AVolumeOfNanIsEmpty) {
+    MinMaxGrid grid;
+    grid.bricks = glm::ivec3(1);
+    const float infinity = std::numeric_limits<float>::infinity();
+    grid.ranges = {{infinity, -infinity}};
+    const auto cells = occupiedCells(grid, glm::ivec3(8), glm::bvec3(false), *upperHalf());
+    EXPECT_EQ(std::count(cells.begin(), cells.end(), std::uint8_t{0}), static_cast<long>(cells.size()));
+    EXPECT_EQ(largestInCells(grid, glm::ivec3(8), glm::bvec3(false), 1.0F).front(), -infinity);
+}
+
+TEST(Occupancy, LargestValuesFollowTheSign) {
+    const glm::ivec3 dims(64, 8, 8);
+    const auto grid = gridWithOneSample(dims, {60, 4, 4}, glm::bvec3(false));
+    const auto up = largestInCells(grid, dims, glm::bvec3(false), 1.0F);
+    EXPECT_EQ(up.front(), 0.0F);
+    EXPECT_EQ(up.back(), 1.0F);
+    EXPECT_EQ(largestInCells(grid, dims, glm::bvec3(false), -1.0F).back(), 0.0F);
+}
+
+TEST(Occupancy, LargeVolumesUseLargerCells) {
+    EXPECT_EQ(CellLayout::of(glm::ivec3(256)).cellSamples, 4);
+    EXPECT_EQ(CellLayout::of(glm::ivec3(1024)).cellSamples, 4);
+    EXPECT_EQ(CellLayout::of(glm::ivec3(2048)).cellSamples, 8);
+    EXPECT_EQ(CellLayout::of({9, 8, 7}).cells, glm::ivec3(3, 2, 2));
+}
+
+TEST(Occupancy, AChunkOfSamplesFitsIntoTwiceTheReach) {
+    for (double distance = 0.01; distance < 64.0; distance *= 1.13) {
+        const int samples = chunkSamples(distance);
+        EXPECT_TRUE(samples == 1 || samples * distance <= 2.0 * CellLayout::reachSamples) << distance;
+        EXPECT_LE(samples, 16);
+    }
+    EXPECT_EQ(chunkSamples(0.5), 16);
+    EXPECT_EQ(chunkSamples(1.0), 8);
+    EXPECT_EQ(chunkSamples(20.0), 1);
+}
+
+} // namespace
+} // namespace voxsheet
