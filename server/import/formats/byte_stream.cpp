@@ -26,6 +26,12 @@ public:
         return got;
     }
 
+    std::uint64_t skip(std::uint64_t count) override {
+        const auto done = std::min(count, file_.bytes() - std::min(offset_, file_.bytes()));
+        offset_ += done;
+        return done;
+    }
+
 private:
     const InputFile& file_;
     std::uint64_t offset_;

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] virtual std::size_t read(std::span<std::byte> out) = 0;
 
     /// Reads and drops; returns how many bytes there were, at most `count`.
-    std::uint64_t skip(std::uint64_t count);
+    virtual std::uint64_t skip(std::uint64_t count);
 };
 
 /// Stream of `file` from `offset` to its end. The file must live as long as the stream.

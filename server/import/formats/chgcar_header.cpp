@@ -201,8 +201,11 @@ ChgcarStructure readChgcarStructure(const std::string& name, TextScanner& text) 
 
 std::optional<glm::ivec3> findChgcarGrid(TextScanner& text, const std::optional<glm::ivec3>& expected,
                                          const std::string& frameLine, bool& newFrame) {
+    constexpr std::uint64_t mostBytes = 256ULL << 20; // augmentation data: about a kilobyte an atom
+    const auto start = text.position();
     newFrame = false;
     while (const auto line = text.line()) {
+        if (text.position() - start > mostBytes) return std::nullopt;
         const auto content = trimmed(*line);
         if (content.empty()) continue;
         if (expected && content == frameLine) {

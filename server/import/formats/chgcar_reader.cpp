@@ -23,27 +23,53 @@ TextScanner openText(const InputFile& file) {
     return {openStream(file, 0, compressionOf(file.textAt(0, 4))), file.name()};
 }
 
+/// VASP writes a grid in lines of equal length. When a look at the first and at lines spread over the grid
+/// confirms this, all but the last line is passed over unread: files can be gigabytes, and readData looks at
+/// every value anyway. Returns the number of values passed.
+std::uint64_t jumpOverEqualLines(const InputFile& file, TextScanner& text, std::uint64_t values) {
+    constexpr std::uint64_t worthwhile = 1'000'000;
+    constexpr std::uint64_t probes = 64;
+    const auto start = text.position();
+    const auto first = file.textAt(start, 1024);
+    const auto length = first.find('\n') + 1;
+    if (values < worthwhile || length == 0) return 0;
+    const auto perLine = splitWords(first.substr(0, length)).size();
+    if (perLine == 0) return 0;
+    const auto lines = values / perLine - 1;
+    if (start + lines * length > file.bytes()) return 0;
+    for (std::uint64_t probe = 0; probe <= probes; ++probe) {
+        const auto line = file.textAt(start + (lines - 1) * probe / probes * length, length);
+        if (line.find('\n') + 1 != length || splitWords(line).size() != perLine) return 0;
+    }
+    text.skipBytes(lines * length);
+    return lines * perLine;
+}
+
 /// Passes over the values of a grid. Throws InvalidInput when there are too few.
-void skipGrid(TextScanner& text, std::uint64_t values, const std::string& name, int grid) {
-    const auto found = text.skipWords(values);
+void skipGrid(const InputFile& file, TextScanner& text, std::uint64_t values, int grid) {
+    std::uint64_t found = 0;
+    if (compressionOf(file.textAt(0, 4)) == Compression::None) found = jumpOverEqualLines(file, text, values);
+    constexpr std::uint64_t widestValueBytes = 64;
+    constexpr std::uint64_t slackBytes = 1U << 20;
+    found += text.skipWords(values - found, (values - found) * widestValueBytes + slackBytes);
     if (found < values)
-        throw InvalidInput(name,
+        throw InvalidInput(file.name(),
                            "grid " + std::to_string(grid) + " needs " + std::to_string(values) +
                                " values, the file ends after " + std::to_string(found),
                            "copy the file again, or let the calculation finish");
 }
 
 /// Number of grids; the first grid's dimension line has been read.
-int countGrids(TextScanner& text, const glm::ivec3& dims, const ChgcarStructure& structure,
-               const std::string& name, std::vector<std::string>& notes) {
+int countGrids(const InputFile& file, TextScanner& text, const glm::ivec3& dims,
+               const ChgcarStructure& structure, std::vector<std::string>& notes) {
     constexpr int mostGrids = 64;
     const auto values = static_cast<std::uint64_t>(sampleCount(dims));
     int grids = 0;
     bool newFrame = false;
     do {
-        skipGrid(text, values, name, ++grids);
+        skipGrid(file, text, values, ++grids);
         if (grids == mostGrids)
-            throw Unsupported(name, "it holds more than " + std::to_string(mostGrids) + " grids");
+            throw Unsupported(file.name(), "it holds more than " + std::to_string(mostGrids) + " grids");
     } while (findChgcarGrid(text, dims, structure.firstLine, newFrame));
     if (newFrame) notes.emplace_back("The file holds further frames; only the first was read.");
     return grids;
@@ -135,7 +161,7 @@ SourceHeader ChgcarReader::readHeader(const std::filesystem::path& path, const I
     validateGrid(meta.grid);
     meta.lengthUnit = "Å";
 
-    const int grids = countGrids(text, *dims, structure, name, meta.notes);
+    const int grids = countGrids(file, text, *dims, structure, meta.notes);
     (void)checkedBytes(name, {dims->x, dims->y, dims->z, grids}, sizeof(double), limits);
     describeFields(chgcarKind(path.filename().string()), grids, options, std::abs(glm::determinant(lattice)),
                    meta);

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -26,6 +27,7 @@ bool TextScanner::fetch() {
     begin_ = 0;
     const auto got = stream_->read(std::as_writable_bytes(std::span(block_).subspan(end_)));
     end_ += got;
+    fetched_ += got;
     return got > 0;
 }
 
@@ -62,7 +64,9 @@ std::string_view TextScanner::word() {
     }
 }
 
-std::uint64_t TextScanner::skipWords(std::uint64_t count) {
+std::uint64_t TextScanner::skipWords(std::uint64_t count, std::uint64_t mostBytes) {
+    if (count == 0) return 0;
+    const auto start = position();
     std::uint64_t found = 0;
     bool inWord = false;
     for (;;) {
@@ -75,8 +79,15 @@ std::uint64_t TextScanner::skipWords(std::uint64_t count) {
                 inWord = true;
             }
         }
+        if (position() - start > mostBytes) throw InvalidInput(name_, "it holds far more blanks than values");
         if (!fetch()) return found + (inWord ? 1 : 0);
     }
+}
+
+void TextScanner::skipBytes(std::uint64_t count) {
+    const auto buffered = std::min<std::uint64_t>(count, end_ - begin_);
+    begin_ += static_cast<std::size_t>(buffered);
+    if (count > buffered) fetched_ += stream_->skip(count - buffered);
 }
 
 } // namespace voxsheet::import

@@ -23,9 +23,14 @@ public:
     /// The next word between blanks and line ends; valid until the next call. Empty at the end of the file.
     /// Throws InvalidInput if a word is longer than 64 KiB.
     [[nodiscard]] std::string_view word();
-    /// Passes over up to `count` words; returns how many there were.
-    [[nodiscard]] std::uint64_t skipWords(std::uint64_t count);
+    /// Passes over up to `count` words; returns how many there were. Throws InvalidInput after `mostBytes` of
+    /// text: a small compressed file can hold blanks without end.
+    [[nodiscard]] std::uint64_t skipWords(std::uint64_t count, std::uint64_t mostBytes);
 
+    /// Offset of the next unread byte in the decompressed text.
+    [[nodiscard]] std::uint64_t position() const { return fetched_ - (end_ - begin_); }
+    /// Passes over `count` bytes, without reading them where the file is not compressed.
+    void skipBytes(std::uint64_t count);
     /// The file ends right here, without a line end.
     [[nodiscard]] bool atEnd() { return begin_ == end_ && !fetch(); }
 
@@ -38,6 +43,7 @@ private:
     std::vector<char> block_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
+    std::uint64_t fetched_ = 0; ///< bytes taken from the stream
 };
 
 } // namespace voxsheet::import

@@ -65,7 +65,8 @@ void checkSegment(const VoxelPlan& plan, const DataSegment& segment) {
             "check dimensions, type and the bytes to skip in the header, or copy the file again");
     };
     if (plan.compression != Compression::None) {
-        if (segment.voxelBytes > largestDecompressedBytes(available, plan.compression))
+        const auto longest = largestDecompressedBytes(available, plan.compression);
+        if (segment.voxelBytes > longest || segment.skipDecoded > longest - segment.voxelBytes)
             refuse("only " + bytesText(available) + " of compressed data, which cannot decompress to that");
         return;
     }

@@ -143,20 +143,24 @@ TEST_F(FormatsFiles, ScansWordsAndLinesAcrossBlocks) {
     for (std::size_t i = 0; i < words; ++i)
         ASSERT_EQ(first.word(), "w" + std::to_string(i));
     TextScanner second(openStream(file, 0, Compression::None), "text");
-    EXPECT_EQ(second.skipWords(words - 1), words - 1);
+    EXPECT_EQ(second.skipWords(words - 1, 1 << 20), words - 1);
     EXPECT_EQ(second.word(), "w" + std::to_string(words - 1));
     std::string last;
     while (const auto line = second.line())
         last = *line;
     EXPECT_EQ(last, "last line");
     EXPECT_TRUE(second.atEnd());
-    EXPECT_EQ(TextScanner(openStream(file, 0, Compression::None), "text").skipWords(1'000'000), words + 2);
+    EXPECT_EQ(TextScanner(openStream(file, 0, Compression::None), "text").skipWords(1'000'000, 1 << 20),
+              words + 2);
 }
 
 TEST_F(FormatsFiles, RefusesEndlessLinesAndWords) {
     const InputFile file(write("text", std::string(1'000'000, 'x')));
     EXPECT_THROW((void)TextScanner(openStream(file, 0, Compression::None), "text").line(), InvalidInput);
     EXPECT_THROW((void)TextScanner(openStream(file, 0, Compression::None), "text").word(), InvalidInput);
+    const InputFile blanks(write("blanks", std::string(2'000'000, ' ') + "1"));
+    EXPECT_THROW((void)TextScanner(openStream(blanks, 0, Compression::None), "text").skipWords(1, 1'000'000),
+                 InvalidInput);
 }
 
 } // namespace

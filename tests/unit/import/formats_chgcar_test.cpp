@@ -116,6 +116,25 @@ TEST_F(FormatsChgcar, ReadsFortranNumbers) {
     EXPECT_DOUBLE_EQ(values[2], 0.1e-100);
 }
 
+TEST_F(FormatsChgcar, FindsGridsOfLargeFilesWhateverTheirLines) {
+    // Large enough that the header phase passes over equal lines unread.
+    const glm::ivec3 dims(128, 100, 80);
+    const auto head = std::string(kStructure) + "Direct\n 0 0 0\n 0.5 0.5 0.5\n\n";
+    const auto equal = gridText(dims, 0.0, " %.1E");
+    auto uneven = equal;
+    uneven.insert(uneven.find('\n', uneven.size() / 2), "  ");
+    for (const auto& grid : {equal, uneven}) {
+        const auto path = write("LOCPOT", head + grid + " 0.5 0.5\n" + gridText(dims, 4.0, " %.1E"));
+        const auto loaded = load(path);
+        ASSERT_EQ(loaded.meta().fields.size(), 2U);
+        EXPECT_EQ(loaded.values<double>(1)[0], 4.0);
+        expectMentions(loadError(write("LOCPOT", head + grid.substr(0, grid.size() - 10))),
+                       "the file ends after 1023999");
+        expectMentions(loadError(write("LOCPOT", head + grid.substr(0, grid.size() / 2))),
+                       "needs 1024000 values");
+    }
+}
+
 TEST_F(FormatsChgcar, RefusesWrongFiles) {
     const auto good = plainFile();
     const auto replaced = [&](const std::string& from, const std::string& to) {
