@@ -1,0 +1,100 @@
+#include "http/resource/format_guess.h"
+
+#include "http/net/unique_fd.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <sstream>
+#include <string_view>
+#include <zlib.h>
+
+namespace voxsheet::http {
+
+namespace {
+
+constexpr std::size_t kHeadBytes = std::size_t{16} << 10U;
+
+std::string readHead(const std::filesystem::path& file) {
+    // Not blocking: the name may belong to a pipe by now.
+    const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!fd.valid()) return {};
+    std::string head(kHeadBytes, '\0');
+    const auto count = ::pread(fd.get(), head.data(), head.size(), 0);
+    head.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    return head;
+}
+
+/// The beginning of what a gzip file unpacks to; as it is otherwise.
+std::string unpackedHead(std::string head) {
+    if (head.size() < 2 || static_cast<unsigned char>(head[0]) != 0x1F ||
+        static_cast<unsigned char>(head[1]) != 0x8B)
+        return head;
+    z_stream stream{};
+    if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) return {};
+    std::string out(kHeadBytes, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(head.data());
+    stream.avail_in = static_cast<uInt>(head.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    inflate(&stream, Z_SYNC_FLUSH); // an incomplete stream is what we expect
+    out.resize(out.size() - stream.avail_out);
+    inflateEnd(&stream);
+    return out;
+}
+
+bool isNifti(std::string_view head) {
+    if (head.size() < 348) return false;
+    const auto magic = head.substr(344, 3);
+    if (magic == "n+1" || magic == "ni1") return true;
+    return head.substr(4, 3) == "n+2" || head.substr(4, 3) == "ni2";
+}
+
+/// CHGCAR family: a comment, a scale, three lattice vectors.
+bool isChgcar(const std::string& head) {
+    std::istringstream lines(head);
+    std::string line;
+    if (!std::getline(lines, line) || !std::getline(lines, line)) return false;
+    const auto numbers = [](const std::string& text) {
+        std::istringstream in(text);
+        double value = 0.0;
+        int count = 0;
+        while (in >> value)
+            ++count;
+        return in.eof() ? count : -1;
+    };
+    if (numbers(line) != 1) return false;
+    for (int i = 0; i < 3; ++i)
+        if (!std::getline(lines, line) || numbers(line) != 3) return false;
+    return true;
+}
+
+bool isMetaImage(std::string_view head) {
+    const auto firstLine = head.substr(0, head.find('\n'));
+    return firstLine.starts_with("ObjectType") || firstLine.starts_with("NDims") ||
+           (head.find("ElementDataFile") != std::string_view::npos &&
+            head.find("DimSize") != std::string_view::npos);
+}
+
+} // namespace
+
+std::optional<std::string> guessFormat(const std::filesystem::path& file) {
+    const auto head = unpackedHead(readHead(file));
+    const std::string_view text = head;
+    if (text.starts_with("NRRD00")) return "nrrd";
+    if (isNifti(text)) return "nifti";
+    if (text.substr(0, 512).find("<VTKFile") != std::string_view::npos)
+        return text.find("\"ImageData\"") != std::string_view::npos ? std::optional<std::string>("vti")
+                                                                    : std::nullopt;
+    if (text.starts_with("# vtk DataFile"))
+        return text.find("STRUCTURED_POINTS") != std::string_view::npos ? std::optional<std::string>("vtk")
+                                                                        : std::nullopt;
+    if (isMetaImage(text)) return "metaimage";
+    if (isChgcar(head)) return "chgcar";
+    if (file.extension() == ".json" && text.find("\"dims\"") != std::string_view::npos) return "raw";
+    return std::nullopt;
+}
+
+} // namespace voxsheet::http

@@ -1,0 +1,69 @@
+#include "http/resource/api_context.h"
+#include "http/route/json_answer.h"
+#include "sheet/style_keys.h"
+#include "sheet/workbook.h"
+
+namespace voxsheet::http {
+
+namespace {
+
+nlohmann::json deviceJson(const engine::Engine& engine) {
+    const auto* device = engine.device();
+    if (device == nullptr) return nullptr;
+    return {{"renderer", device->renderer},  {"vendor", device->vendor},
+            {"version", device->version},    {"platform", device->eglPlatform},
+            {"reason", device->reason},      {"software", device->software},
+            {"robust", device->robust},      {"max_texture_size_3d", device->maxTextureSize3d},
+            {"devices", listRenderDevices()}};
+}
+
+nlohmann::json rootsJson(const engine::Engine& engine) {
+    auto roots = nlohmann::json::array();
+    for (const auto& root : engine.options().roots)
+        roots.push_back(root.string());
+    return roots;
+}
+
+Response info(const ApiContext& context) {
+    const auto& options = context.engine.options();
+    const auto residency = context.engine.residency();
+    return jsonAnswer(nlohmann::json{{"name", "Voxsheet"},
+                                     {"version", context.settings.version},
+                                     {"device", deviceJson(context.engine)},
+                                     {"budgets",
+                                      {{"texture", residency.budgetBytes},
+                                       {"memory", options.memoryBudgetBytes},
+                                       {"store", options.storeLimitBytes}}},
+                                     {"limits",
+                                      {{"upload_bytes", context.settings.uploadLimitBytes},
+                                       {"cells", sheet::kMaxCells},
+                                       {"sheets", sheet::kMaxSheets},
+                                       {"image_pixels_per_side", 8192}}},
+                                     {"roots", rootsJson(context.engine)}});
+}
+
+} // namespace
+
+void addInfoRoutes(Router& router, const ApiContext& context) {
+    router.add({.method = "GET",
+                .pattern = "/api/v1",
+                .handler = [&context](Request&) { return info(context); },
+                .summary = "Version, device and why it was chosen, budgets, limits, roots",
+                .answerDoc = "{name, version, device, budgets, limits, roots}"});
+    router.add(
+        {.method = "GET",
+         .pattern = "/api/v1/keys",
+         .handler =
+             [&context](Request&) {
+                 return jsonAnswer(nlohmann::json{{"keys", sheet::describeKeys(context.engine.keys())}});
+             },
+         .summary = "The table of style keys: type, unit, bounds, default, documentation",
+         .answerDoc = "{keys: [{name, type, unit, min, max, choices, default, group, widget, doc}]}"});
+    router.add({.method = "GET",
+                .pattern = "/api/v1/colourmaps",
+                .handler = [&context](Request&) { return jsonAnswer(context.engine.colourMaps()); },
+                .summary = "The colour maps with their stops",
+                .answerDoc = "{maps: [{name, label, kind, pivot, stops: [[position, r, g, b]]}]}"});
+}
+
+} // namespace voxsheet::http

@@ -1,0 +1,28 @@
+// Everything the page needs to know of a workbook, as JSON.
+#pragma once
+
+#include "engine/engine.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace voxsheet::http {
+
+/// {KEY: {"value", "origin": "default|sheet|column|row|cell"}}
+[[nodiscard]] nlohmann::json valuesJson(const sheet::ResolvedValues& values);
+
+/// {"name", "title", "rows", "columns", "columnTitles", "rowTitles", "cells": [{"cell", "title", "source",
+/// "state", "code", "message", "progress", "dataset", "orientation", "notes", "style"}]}: every cell of a
+/// grid of up to 1024, only those with content of a larger one.
+[[nodiscard]] nlohmann::json sheetState(const engine::Engine& engine, const sheet::Workbook& workbook,
+                                        const sheet::Sheet& sheet);
+
+/// {"version", "canUndo", "canRedo", "workbook": document, "sheets": […]}
+[[nodiscard]] nlohmann::json workbookState(const engine::Engine& engine);
+
+/// One cell of sheetState, without its style. `status` may be null: the cell is empty.
+[[nodiscard]] nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
+                                       const engine::CellStatus* status);
+
+} // namespace voxsheet::http
