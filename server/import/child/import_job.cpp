@@ -54,13 +54,29 @@ void checkDisk(const std::string& file, const store::VolumeStore& store, const D
                         "free space, or choose another folder with --store");
 }
 
+/// Errors that do not say which file they are about get its name.
+template <typename Work>
+auto naming(const std::string& file, const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        if (error.subject().find('/') != std::string::npos || !error.field().empty()) throw;
+        auto named = errorMessage(error);
+        named.why = named.what + ": " + named.why;
+        named.what = file;
+        throwError(named);
+    }
+}
+
 SourceHeader readHeader(const SourceReader& reader, const std::filesystem::path& file,
                         const ImportOptions& options, const JobLimits& limits) {
-    ImportLimits readerLimits;
-    readerLimits.maxBytes = limits.maxVoxelBytes;
-    auto header = reader.readHeader(file, options, readerLimits);
-    header.meta.sourcePath = file.string();
-    return header;
+    return naming(file.string(), [&] {
+        ImportLimits readerLimits;
+        readerLimits.maxBytes = limits.maxVoxelBytes;
+        auto header = reader.readHeader(file, options, readerLimits);
+        header.meta.sourcePath = file.string();
+        return header;
+    });
 }
 
 FilePreview previewOf(const SourceHeader& header) {
@@ -103,9 +119,11 @@ std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeSt
     checkDisk(job.file.string(), store, header.meta);
     store::StoreWriter entry(store, header.meta);
     writer = &entry;
-    // The last hundredth is for syncing to the disk.
-    reader.readData(header, sink, [&job](double fraction) {
-        if (job.progress) job.progress(0.99 * fraction);
+    naming(job.file.string(), [&] {
+        // The last hundredth is for syncing to the disk.
+        reader.readData(header, sink, [&job](double fraction) {
+            if (job.progress) job.progress(0.99 * fraction);
+        });
     });
     if (stampsOf(header) != stamps)
         throw IoError(job.file.string(), "it changed while it was being read", "import it again");

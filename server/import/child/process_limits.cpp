@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -21,11 +22,11 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-void setLimit(__rlimit_resource resource, std::uint64_t value) {
+void setLimit(__rlimit_resource resource, std::uint64_t soft, std::uint64_t hard) {
     struct rlimit limit {};
     ::getrlimit(resource, &limit);
-    limit.rlim_cur = std::min<rlim_t>(value, limit.rlim_max);
-    limit.rlim_max = limit.rlim_cur;
+    limit.rlim_max = std::min<rlim_t>(hard, limit.rlim_max);
+    limit.rlim_cur = std::min<rlim_t>(soft, limit.rlim_max);
     if (::setrlimit(resource, &limit) != 0)
         throw InternalError("limits of the importer", std::strerror(errno));
 }
@@ -46,10 +47,11 @@ void applyProcessLimits(const ProcessLimits& limits) {
         if (::getppid() != limits.parent) ::_exit(1); // it ended before the line above took effect
     }
     ::signal(SIGPIPE, SIG_DFL);
-    setLimit(RLIMIT_CORE, 0);
-    if (limits.cpuSeconds != 0) setLimit(RLIMIT_CPU, limits.cpuSeconds);
-    if (limits.memoryBytes != 0 && !kSanitized)
-        setLimit(RLIMIT_AS, limits.memoryBytes + kProgramAddressSpace);
+    setLimit(RLIMIT_CORE, 0, 0);
+    // The soft limit's signal tells the parent why; the hard one cannot be ignored.
+    if (limits.cpuSeconds != 0) setLimit(RLIMIT_CPU, limits.cpuSeconds, limits.cpuSeconds + 5);
+    const auto addressSpace = limits.memoryBytes + kProgramAddressSpace;
+    if (limits.memoryBytes != 0 && !kSanitized) setLimit(RLIMIT_AS, addressSpace, addressSpace);
     preferAsVictim();
 }
 
