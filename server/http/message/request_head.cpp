@@ -127,11 +127,11 @@ void refuseEncodedBody(const RequestHead& head) {
 std::optional<std::size_t> headBytes(std::string_view received, const HeadLimits& limits) {
     const auto end = received.find("\r\n\r\n");
     const auto known = end == std::string_view::npos ? received : received.substr(0, end + 4);
+    const auto firstLine = std::min(known.find("\r\n"), known.size());
+    if (firstLine > limits.targetBytes + 64) // method and version take the rest
+        throw BadHead{414, "the URL is longer than " + std::to_string(limits.targetBytes) + " bytes"};
     if (known.size() > limits.bytes)
         throw BadHead{431, "the header is longer than " + std::to_string(limits.bytes) + " bytes"};
-    const auto firstLine = known.find("\r\n");
-    if (firstLine == std::string_view::npos && known.size() > limits.targetBytes + 64)
-        throw BadHead{414, "the URL is longer than " + std::to_string(limits.targetBytes) + " bytes"};
     if (end == std::string_view::npos) return std::nullopt;
     return end + 4;
 }

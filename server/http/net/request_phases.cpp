@@ -281,7 +281,7 @@ void HttpServer::Loop::refuse(const ConnectionPtr& connection, int status, const
     respond(connection, std::move(response), false);
 }
 
-void HttpServer::Loop::respond(const ConnectionPtr& connection, Response&& response, bool keepAlive) {
+void HttpServer::Loop::respond(const ConnectionPtr& connection, Response response, bool keepAlive) {
     bufferedBytes_ -= std::exchange(connection->reservedBytes, 0);
     connection->admission = Admission{};
     BufferWriter writer(connection->out);

@@ -50,7 +50,7 @@ private:
     void finished(const ConnectionPtr& connection);
     void send(const ConnectionPtr& connection);
     void refuse(const ConnectionPtr& connection, int status, const std::string& detail);
-    void respond(const ConnectionPtr& connection, Response&& response, bool keepAlive);
+    void respond(const ConnectionPtr& connection, Response response, bool keepAlive);
     void nextRequest(const ConnectionPtr& connection);
     void drain(const ConnectionPtr& connection);
 

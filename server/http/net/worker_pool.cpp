@@ -18,22 +18,22 @@ struct WorkerPool::State {
     int maxThreads = 1;
     std::size_t queueLength = 0;
     int threads = 0;
-    std::size_t idle = 0;
+    std::size_t busy = 0;
     bool stopping = false;
 
     void run() {
         std::unique_lock lock(mutex);
         for (;;) {
-            ++idle;
             work.wait_for(lock, 10s, [this] { return stopping || !queue.empty(); });
-            --idle;
             if (queue.empty()) break;
             auto task = std::move(queue.front());
             queue.pop_front();
+            ++busy;
             lock.unlock();
             task();
             task = nullptr; // what it holds must not outlive it by the length of a wait
             lock.lock();
+            --busy;
         }
         --threads;
         ended.notify_all();
@@ -50,7 +50,9 @@ WorkerPool::~WorkerPool() { stop(std::chrono::steady_clock::now()); }
 bool WorkerPool::trySubmit(std::function<void()> task) {
     const std::lock_guard lock(state_->mutex);
     if (state_->stopping) return false;
-    if (state_->queue.size() >= state_->idle && state_->threads < state_->maxThreads) {
+    const auto pending = state_->queue.size() + state_->busy;
+    const auto threads = static_cast<std::size_t>(state_->threads);
+    if (pending >= threads && state_->threads < state_->maxThreads) {
         try {
             // Detached: a handler that hangs must not keep the program from ending (see stop()).
             std::thread([state = state_] { state->run(); }).detach();
@@ -58,7 +60,7 @@ bool WorkerPool::trySubmit(std::function<void()> task) {
         } catch (const std::system_error&) {
             if (state_->threads == 0) return false;
         }
-    } else if (state_->queue.size() >= state_->idle + state_->queueLength) {
+    } else if (pending >= threads + state_->queueLength) {
         return false;
     }
     state_->queue.push_back(std::move(task));
