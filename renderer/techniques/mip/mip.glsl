@@ -5,13 +5,10 @@
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
+#include "stages/picture_pixel.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) writeonly uniform image2D target;
 layout(binding = 2) uniform sampler3D largestInCells;
 
-uniform ivec2 targetSize;
-uniform int firstRow;
 uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 uniform float sampleDistanceVoxels;
 uniform float opacityScale; // 1 / (the table's largest opacity)
@@ -19,41 +16,68 @@ uniform float texelSign; // -1 where values fall with texels
 
 const float kNone = -3.0e38;
 
+// The path of a ray in whole stretches, one sample in the middle of each, and a rest.
+struct Path {
+    vec3 first;  // sample 0
+    vec3 stride; // from sample to sample
+    int whole;
+    int chunks;
+};
+
+float largestIn(Path path, int chunk, float largest) {
+    int begin = chunk * CHUNK_SAMPLES;
+    for (int k = 0; k < CHUNK_SAMPLES; ++k) {
+        float texel = texelSign * texelAt(path.first + float(begin + k) * path.stride);
+        if (begin + k < path.whole && texel > largest) largest = texel; // false for NaN
+    }
+    return largest;
+}
+
+float boundOf(Path path, int chunk) {
+    vec3 middle = path.first + (float(chunk * CHUNK_SAMPLES) + 0.5 * float(CHUNK_SAMPLES - 1)) * path.stride;
+    return texelFetch(largestInCells, cellAt(middle), 0).r;
+}
+
 float largestTexel(Ray ray, vec2 span) {
     float spacing = sampleDistanceVoxels / length(ray.direction * voxelsPerTexture);
     float stretches = (span.y - span.x) / spacing;
-    int whole = int(stretches);
-    vec3 stride = spacing * ray.direction;
-    vec3 first = ray.origin + (span.x + 0.5 * spacing) * ray.direction;
+    Path path;
+    path.whole = int(stretches);
+    path.chunks = (path.whole + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
+    path.stride = spacing * ray.direction;
+    path.first = ray.origin + (span.x + 0.5 * spacing) * ray.direction;
 
-    // The sample of the rest of the path comes first: it is a start for the comparison.
-    float rest = stretches - float(whole);
+    float rest = stretches - float(path.whole);
     float largest = kNone;
-    float texel = texelSign * texelAt(first + (float(whole) + 0.5 * (rest - 1.0)) * stride);
-    if (texel > largest) largest = texel; // false for NaN
-    int chunks = (whole + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
+    float texel = texelSign * texelAt(path.first + (float(path.whole) + 0.5 * (rest - 1.0)) * path.stride);
+    if (texel > largest) largest = texel;
+#if SKIP_EMPTY
+    // The most promising chunk first: most others then cannot exceed what it holds.
+    int promising = 0;
+    float promise = kNone;
+    for (int chunk = 0; chunk < path.chunks; ++chunk) {
+        float bound = boundOf(path, chunk);
+        if (bound > promise) {
+            promise = bound;
+            promising = chunk;
+        }
+    }
+    if (path.chunks > 0) largest = largestIn(path, promising, largest);
+#endif
     int chunk = 0;
     while (true) {
 #if SKIP_EMPTY
-        while (chunk < chunks) {
-            vec3 middle = first + (float(chunk * CHUNK_SAMPLES) + 0.5 * float(CHUNK_SAMPLES - 1)) * stride;
-            if (texelFetch(largestInCells, cellAt(middle), 0).r > largest) break;
-            ++chunk;
-        }
+        while (chunk < path.chunks && (chunk == promising || !(boundOf(path, chunk) > largest))) ++chunk;
 #endif
-        if (chunk >= chunks) break;
-        int begin = chunk * CHUNK_SAMPLES;
-        for (int k = 0; k < CHUNK_SAMPLES; ++k) {
-            texel = texelSign * texelAt(first + float(begin + k) * stride);
-            if (begin + k < whole && texel > largest) largest = texel;
-        }
+        if (chunk >= path.chunks) break;
+        largest = largestIn(path, chunk, largest);
         ++chunk;
     }
     return largest;
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, firstRow);
+    ivec2 pixel = picturePixel();
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Ray ray = cameraRay(vec2(pixel) + 0.5);
     vec2 span = boxSpan(ray);

@@ -5,13 +5,10 @@
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
+#include "stages/picture_pixel.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) writeonly uniform image2D target;
 layout(binding = 2) uniform usampler3D occupiedCells;
 
-uniform ivec2 targetSize;
-uniform int firstRow;
 uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 uniform float sampleDistanceVoxels;
 uniform float unitsPerRadius; // bounding radius / unitLength
@@ -63,7 +60,7 @@ vec4 composite(Ray ray, vec2 span) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, firstRow);
+    ivec2 pixel = picturePixel();
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Ray ray = cameraRay(vec2(pixel) + 0.5);
     vec2 span = boxSpan(ray);
