@@ -6,6 +6,7 @@
 #include "sheet/utf8.h"
 
 #include <algorithm>
+#include <map>
 
 namespace voxsheet::sheet {
 
@@ -37,16 +38,14 @@ double displacementVoxels(const Grid& a, const Grid& b) {
 
 class Compiler {
 public:
-    Compiler(const FormulaAst& ast, const std::function<FormulaOperand(const FormulaNode&)>& resolve)
-        : ast_(ast), resolve_(resolve) {}
+    Compiler(const FormulaAst& ast, const std::function<FormulaOperand(const FormulaNode&)>& resolve,
+             std::size_t& copiesLeft)
+        : ast_(ast), resolve_(resolve), copiesLeft_(copiesLeft) {}
 
     CellValue run() {
         for (const FormulaNode& node : ast_.nodes) {
             steps_.push_back(compile(node));
-            if (builder_.isTooLarge())
-                fail(CellErrorCode::Mem,
-                     "The formula has too many steps or inputs once the formulas that it uses are "
-                     "written out; split the work over datasets.");
+            if (builder_.isTooLarge()) tooLarge();
         }
         if (!pending_.empty()) return PendingValue{pending_};
         if (!grid_)
@@ -56,6 +55,11 @@ public:
     }
 
 private:
+    [[noreturn]] static void tooLarge() {
+        fail(CellErrorCode::Mem,
+             "The formula has too many steps or inputs once the formulas that it uses are written out; "
+             "split the work over datasets.");
+    }
     int child(const FormulaNode& node, std::size_t index) const {
         return steps_[static_cast<std::size_t>(node.children[index])];
     }
@@ -114,6 +118,14 @@ private:
     }
 
     int reference(const FormulaNode& node) {
+        const SheetAddress named{node.name, node.range.first};
+        if (const auto known = references_.find(named); known != references_.end()) return known->second;
+        const int step = newReference(node);
+        references_.emplace(named, step);
+        return step;
+    }
+
+    int newReference(const FormulaNode& node) {
         const FormulaOperand operand = resolve_(node);
         if (const auto* error = std::get_if<CellError>(&operand.value)) throw CompileFailure{*error};
         if (const auto* waits = std::get_if<PendingValue>(&operand.value)) {
@@ -128,6 +140,8 @@ private:
         join(operand.shown, formula.grid);
         for (const std::string& text : formula.notes)
             note(text);
+        if (formula.plan.steps.size() > copiesLeft_) tooLarge();
+        copiesLeft_ -= formula.plan.steps.size();
         return builder_.inlined(formula.plan);
     }
 
@@ -156,6 +170,8 @@ private:
     const FormulaAst& ast_;
     const std::function<FormulaOperand(const FormulaNode&)>& resolve_;
     PlanBuilder builder_;
+    std::size_t& copiesLeft_;
+    std::map<SheetAddress, int> references_;
     std::vector<int> steps_; ///< of each node
     std::optional<Grid> grid_;
     std::string firstShown_;
@@ -166,9 +182,10 @@ private:
 } // namespace
 
 CellValue compileFormula(const FormulaAst& ast,
-                         const std::function<FormulaOperand(const FormulaNode&)>& resolve) {
+                         const std::function<FormulaOperand(const FormulaNode&)>& resolve,
+                         std::size_t& copiesLeft) {
     try {
-        return Compiler(ast, resolve).run();
+        return Compiler(ast, resolve, copiesLeft).run();
     } catch (const CompileFailure& failure) {
         return failure.error;
     }

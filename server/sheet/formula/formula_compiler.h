@@ -4,6 +4,7 @@
 #include "sheet/formula/ast.h"
 #include "sheet/formula/values.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -18,7 +19,9 @@ struct FormulaOperand {
 };
 
 /// FormulaValue, PendingValue or CellError; an error goes before what is pending, the leftmost error first.
+/// \param copiesLeft  how many steps of other formulas may still be copied into plans; counts down
 [[nodiscard]] CellValue compileFormula(const FormulaAst& ast,
-                                       const std::function<FormulaOperand(const FormulaNode&)>& resolve);
+                                       const std::function<FormulaOperand(const FormulaNode&)>& resolve,
+                                       std::size_t& copiesLeft);
 
 } // namespace voxsheet::sheet

@@ -39,6 +39,8 @@ struct FormulaPlan {
 
 inline constexpr std::size_t kMaxPlanSteps = 4096;
 inline constexpr std::size_t kMaxPlanInputs = 256;
+/// Steps that one workbook may copy from formula to formula: a chain of n formulas copies n^2 / 2.
+inline constexpr std::size_t kMaxCopiedSteps = std::size_t{1} << 20;
 
 /// Identifies the result: equal text, equal voxels. \param inputKeys one per input, naming exactly the array
 /// that is read (store key, field, step). Throws InvalidInput if their number is wrong.

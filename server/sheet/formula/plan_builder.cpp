@@ -1,12 +1,20 @@
 #include "sheet/formula/plan_builder.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace voxsheet::sheet {
 
+std::size_t PlanBuilder::StepHash::operator()(const PlanStep& step) const {
+    std::size_t hash = static_cast<std::size_t>(step.op);
+    for (const std::size_t part :
+         {std::hash<int>{}(step.a), std::hash<int>{}(step.b), std::hash<double>{}(step.constant)})
+        hash = hash * 0x9E3779B97F4A7C15U + part;
+    return hash;
+}
+
 int PlanBuilder::step(const PlanStep& step) {
-    const auto [known, isNew] =
-        known_.try_emplace({step.op, step.a, step.b, step.constant}, static_cast<int>(plan_.steps.size()));
+    const auto [known, isNew] = known_.try_emplace(step, static_cast<int>(plan_.steps.size()));
     if (isNew) plan_.steps.push_back(step);
     return known->second;
 }

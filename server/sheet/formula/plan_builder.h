@@ -3,8 +3,8 @@
 
 #include "sheet/formula/plan.h"
 
-#include <map>
-#include <tuple>
+#include <cstddef>
+#include <unordered_map>
 
 namespace voxsheet::sheet {
 
@@ -25,8 +25,12 @@ public:
 private:
     int step(const PlanStep& step);
 
+    struct StepHash {
+        std::size_t operator()(const PlanStep& step) const;
+    };
+
     FormulaPlan plan_;
-    std::map<std::tuple<FormulaOp, int, int, double>, int> known_;
+    std::unordered_map<PlanStep, int, StepHash> known_;
 };
 
 } // namespace voxsheet::sheet

@@ -111,7 +111,8 @@ private:
             return;
         }
         const auto resolve = [&](const FormulaNode& node) { return operand(node, formula.position); };
-        values_.cells[formula.position] = compileFormula(std::get<FormulaAst>(formula.parsed), resolve);
+        values_.cells[formula.position] =
+            compileFormula(std::get<FormulaAst>(formula.parsed), resolve, copiesLeft_);
     }
 
     /// What a reference stands for, or the error that the formula gets because of it.
@@ -166,6 +167,7 @@ private:
     std::map<CellPosition, int> indices_;
     DependencyGraph graph_;
     std::map<CellPosition, CellPosition> roots_; ///< of errors that came from elsewhere
+    std::size_t copiesLeft_ = kMaxCopiedSteps;
     WorkbookValues values_;
 };
 

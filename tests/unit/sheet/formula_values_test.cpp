@@ -248,6 +248,23 @@ TEST_F(Values, TooLargePlansAreRefused) {
     expectError("A2", CellErrorCode::Mem, "too many");
 }
 
+TEST_F(Values, ManyLongFormulasEndInAnErrorNotInAllMemory) {
+    book = filledWorkbook(1, 1);
+    book.sheets[0].columns = 4;
+    book.sheets[0].rows = 1000;
+    for (int cell = 1; cell < 4000; ++cell) { // one chain through every column
+        const auto at = [](int i) { return Address{i / 1000, i % 1000}; };
+        book.sheets[0].cells[at(cell)].source = "=" + addressName(at(cell - 1)) + "+1";
+    }
+    std::size_t steps = 0;
+    const WorkbookValues all = evaluateWorkbook(testKeys(), book, lookup);
+    for (const auto& [position, computed] : all.cells)
+        if (const auto* f = std::get_if<FormulaValue>(&computed)) steps += f->plan.steps.size();
+    EXPECT_LT(steps, 2 * kMaxCopiedSteps);
+    EXPECT_EQ(std::get<FormulaValue>(valueAt(all, {0, {0, 999}})).plan.steps.size(), 1001U);
+    EXPECT_EQ(std::get<CellError>(valueAt(all, {0, {3, 999}})).code, CellErrorCode::Mem);
+}
+
 TEST(DependencyGraph, ComponentsComeAfterWhatTheyNeed) {
     const DependencyGraph graph{{1, 2}, {3}, {3, 4}, {}, {2}};
     const auto components = componentsInOrder(graph);
