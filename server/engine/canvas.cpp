@@ -3,12 +3,7 @@
 #include "base/errors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 
 namespace voxsheet::engine {
 
@@ -23,29 +18,7 @@ void dropLastCharacter(std::string& text) {
     if (!text.empty()) text.pop_back();
 }
 
-std::string shortened(std::string line, int fontPixels, int maxWidth) {
-    if (Canvas::textWidth(line, fontPixels) <= maxWidth) return line;
-    while (!line.empty() && Canvas::textWidth(line + "…", fontPixels) > maxWidth)
-        dropLastCharacter(line);
-    return line + "…";
-}
-
 } // namespace
-
-const std::string& pictureFont() {
-    static const std::string font = [] {
-        for (const char* file :
-             {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-              "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-              "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-              "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
-            if (std::filesystem::exists(file)) return std::string(file);
-        }
-        throw Unsupported("text in pictures", "no font was found",
-                          "install fonts-dejavu-core, or set annotations to none");
-    }();
-    return font;
-}
 
 Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background)
     : size_(sizePixels),
@@ -59,18 +32,21 @@ Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background)
 
 Canvas::~Canvas() = default;
 
+void Canvas::blend(glm::ivec2 at, const glm::vec4& colour) {
+    float* pixel = rgba_.data() + (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
+                                   static_cast<std::size_t>(at.x)) *
+                                      4;
+    for (int c = 0; c < 4; ++c)
+        pixel[c] = colour[c] + pixel[c] * (1.0F - colour.w);
+}
+
 void Canvas::fill(const PixelRect& area, const glm::vec4& colour) {
     const glm::vec4 source = premultiplied(colour);
     const glm::ivec2 low = glm::max(area.low, glm::ivec2(0));
     const glm::ivec2 high = glm::min(area.high, size_);
     for (int y = low.y; y < high.y; ++y) {
-        for (int x = low.x; x < high.x; ++x) {
-            float* pixel = rgba_.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
-                                           static_cast<std::size_t>(x)) *
-                                              4;
-            for (int c = 0; c < 4; ++c)
-                pixel[c] = source[c] + pixel[c] * (1.0F - source.w);
-        }
+        for (int x = low.x; x < high.x; ++x)
+            blend({x, y}, source);
     }
 }
 
@@ -92,33 +68,41 @@ void Canvas::put(const TilePixels& picture, glm::ivec2 at) {
     }
 }
 
+Typesetter& Canvas::typesetter() {
+    if (!typesetter_) typesetter_ = std::make_unique<Typesetter>();
+    return *typesetter_;
+}
+
 int Canvas::textWidth(const std::string& line, int fontPixels) {
-    if (line.empty()) return 0;
-    const OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(line, fontPixels, pictureFont());
-    if (!roi.defined()) {
-        throw Unsupported("text in pictures", "OpenImageIO cannot set text with " + pictureFont(),
-                          "use an OpenImageIO that was built with FreeType, or set annotations to none");
-    }
-    return roi.width();
+    return typesetter().width(line, fontPixels);
+}
+
+std::string Canvas::shortened(std::string line, int fontPixels, int maxWidth) {
+    if (textWidth(line, fontPixels) <= maxWidth) return line;
+    while (!line.empty() && textWidth(line + "…", fontPixels) > maxWidth)
+        dropLastCharacter(line);
+    return line + "…";
 }
 
 void Canvas::text(glm::ivec2 at, TextAlign align, const std::string& line, int fontPixels,
                   const glm::vec4& colour, int maxWidth) {
-    const std::string shown = shortened(line, fontPixels, maxWidth);
-    if (shown.empty()) return;
-    // The buffer borrows the canvas' pixels.
-    OIIO::ImageBuf buffer(OIIO::ImageSpec(size_.x, size_.y, 4, OIIO::TypeDesc::FLOAT), rgba_.data());
-    const std::array<float, 4> paint{colour.x, colour.y, colour.z, colour.w};
-    using Algo = OIIO::ImageBufAlgo::TextAlignX;
-    const Algo alignX = align == TextAlign::Left    ? Algo::Left
-                        : align == TextAlign::Right ? Algo::Right
-                                                    : Algo::Center;
-    // Baseline: letters of DejaVu Sans are 0.73 of the size high, so this puts their middle at `at`.
-    const int baseline = at.y + static_cast<int>(std::lround(0.36 * fontPixels));
-    if (!OIIO::ImageBufAlgo::render_text(buffer, at.x, baseline, shown, fontPixels, pictureFont(), paint,
-                                         alignX, OIIO::ImageBufAlgo::TextAlignY::Baseline)) {
-        throw Unsupported("text in pictures", "OpenImageIO failed: " + buffer.geterror(),
-                          "set annotations to none");
+    if (line.empty()) return;
+    const TextMask mask = typesetter().set(shortened(line, fontPixels, maxWidth), fontPixels);
+    const int shift = align == TextAlign::Left    ? 0
+                      : align == TextAlign::Right ? mask.advance
+                                                  : mask.advance / 2;
+    // Capitals of DejaVu Sans are 0.73 of the size high: this puts their middle at `at`.
+    const glm::ivec2 low(at.x - shift,
+                         at.y + static_cast<int>(std::lround(0.36 * fontPixels)) - mask.baseline);
+    for (int y = std::max(0, -low.y); y < std::min(mask.size.y, size_.y - low.y); ++y) {
+        for (int x = std::max(0, -low.x); x < std::min(mask.size.x, size_.x - low.x); ++x) {
+            const unsigned char coverage =
+                mask.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.size.x) +
+                              static_cast<std::size_t>(x)];
+            if (coverage == 0) continue;
+            blend(low + glm::ivec2(x, y),
+                  premultiplied({glm::vec3(colour), colour.w * static_cast<float>(coverage) / 255.0F}));
+        }
     }
 }
 

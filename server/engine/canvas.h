@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/sheet_layout.h"
+#include "engine/typesetter.h"
 #include "frame/frame_spec.h"
 
 #include <glm/glm.hpp>
@@ -13,10 +14,6 @@
 namespace voxsheet::engine {
 
 enum class TextAlign { Left, Centre, Right };
-
-/// The font that text in pictures is set in. Throws Unsupported, naming the package, if none of the usual
-/// ones is installed.
-[[nodiscard]] const std::string& pictureFont();
 
 /// Display sRGB floats, alpha premultiplied. Not thread-safe.
 class Canvas {
@@ -38,11 +35,18 @@ public:
     /// Wrapped at blanks into the area, from its top; what does not fit ends in "…".
     void paragraph(const PixelRect& area, const std::string& words, int fontPixels, const glm::vec4& colour);
 
-    [[nodiscard]] static int textWidth(const std::string& line, int fontPixels);
+    /// Throws Unsupported as pictureFont.
+    [[nodiscard]] int textWidth(const std::string& line, int fontPixels);
     [[nodiscard]] TilePixels pixels(PixelFormat format) const;
 
 private:
+    [[nodiscard]] Typesetter& typesetter();
+    [[nodiscard]] std::string shortened(std::string line, int fontPixels, int maxWidth);
+    void blend(glm::ivec2 at, const glm::vec4& premultipliedColour);
+
     glm::ivec2 size_;
+    std::unique_ptr<Typesetter>
+        typesetter_;          ///< made when the first text is set: pictures without text need no font
     std::vector<float> rgba_; ///< top row first
 };
 
