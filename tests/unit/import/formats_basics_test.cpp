@@ -100,7 +100,7 @@ std::string readAll(const fs::path& path, Compression compression, std::size_t m
 TEST_F(FormatsFiles, Decompresses) {
     std::string text;
     for (int i = 0; i < 200'000; ++i)
-        text += static_cast<char>('a' + i * i % 26);
+        text += static_cast<char>('a' + i % 251 * (i % 13) % 26);
     EXPECT_EQ(readAll(write("a", gzipped(text)), Compression::Gzip, 1 << 20), text);
     EXPECT_EQ(readAll(write("b", zlibbed(text)), Compression::Gzip, 1 << 20), text);
     EXPECT_EQ(readAll(write("c", bzipped(text)), Compression::Bzip2, 1 << 20), text);
