@@ -12,8 +12,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
-#include <utility>
 #include <unistd.h>
+#include <utility>
 
 extern char** environ; // NOLINT: POSIX
 
@@ -141,7 +141,9 @@ void ChildProcess::readOutput() {
 
 void ChildProcess::readErrors() {
     drain(errors_, [this](std::string_view text) {
-        errorTail_ += text;
+        // Libraries quote what they read: a log must not pass control characters on to a terminal.
+        for (const char c : text)
+            errorTail_ += c == '\n' || (c >= ' ' && c <= '~') ? c : '?';
         if (errorTail_.size() > kErrorTail) errorTail_.erase(0, errorTail_.size() - kErrorTail);
     });
 }
