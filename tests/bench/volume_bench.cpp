@@ -10,10 +10,12 @@
 namespace voxsheet::bench {
 namespace {
 
-constexpr int kTruthPixelStride = 8;
+constexpr int kTruthPixels = 64; ///< per axis: the integrator is slow
 constexpr double kTruthStepVoxels = 1.0 / 16.0;
 constexpr double kDegreesPerFrame = 7.0;
 const char* const kDataset = "bench";
+
+int truthStride(const VolumeBenchOptions& options) { return std::max(1, options.pixels / kTruthPixels); }
 
 fields::AnalyticField benchField() { return fields::gaussianSum(); }
 
@@ -53,13 +55,13 @@ const fields::Picture& VolumeScene::truth(Technique technique) {
         picture = fields::integrateConverged(
             view, sampled_.meta.grid, interpolant.dims(),
             [&](const glm::dvec3& texture) { return interpolant.at(texture); }, kTruthStepVoxels,
-            kTruthPixelStride);
+            truthStride(options_));
     }
     return picture;
 }
 
 fields::Difference VolumeScene::distance(Technique technique, const fields::Picture& picture) {
-    return fields::difference(fields::everyNth(picture, kTruthPixelStride), truth(technique));
+    return fields::difference(fields::everyNth(picture, truthStride(options_)), truth(technique));
 }
 
 fields::Picture pictureOf(const TilePixels& pixels) {

@@ -28,7 +28,7 @@ struct VolumeBenchCase {
     double ms = 0.0;      ///< median, from state to host pixels
     double samples = 0.0; ///< in the box at this distance, for the first view: before any is skipped
     double psnr = 0.0;    ///< dB, of the 8-bit picture of the first view against the converged integral, over
-                          ///< every 8th pixel
+                          ///< about 64 x 64 pixels
     double p999 = 0.0;    ///< 99.9th percentile of its error
 };
 
@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] const fields::SampledField& sampled() const { return sampled_; }
     [[nodiscard]] TileSpec tile(Technique technique, int frame) const;
-    /// The converged picture of frame 0, every 8th pixel. Maximum projection has its own.
+    /// The converged picture of frame 0, of about 64 x 64 of its pixels. Maximum projection has its own.
     [[nodiscard]] const fields::Picture& truth(Technique technique);
     [[nodiscard]] fields::Difference distance(Technique technique, const fields::Picture& picture);
     [[nodiscard]] std::string name() const;

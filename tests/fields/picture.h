@@ -30,7 +30,8 @@ struct Picture {
 [[nodiscard]] Picture everyNth(const Picture& picture, int n);
 
 struct Difference {
-    double psnr = 0.0; ///< dB, peak 1, over red, green and blue; 200 when the pictures are equal
+    double psnr = 0.0; ///< dB, peak 1, over red, green and blue; 200 when the pictures are equal, 0 when no
+                       ///< pixel counts
     double psnrAlpha = 0.0;
     double p999 = 0.0;      ///< 99.9th percentile over pixels of the largest error of a colour
     double largest = 0.0;   ///< the largest error of a colour
