@@ -26,7 +26,7 @@ json parseJson(const InputFile& file) {
         tooDeep = tooDeep || depth > deepest;
         return depth <= deepest;
     };
-    const auto document = json::parse(file.textAt(0, mostBytes), limitDepth, /*allow_exceptions=*/false);
+    auto document = json::parse(file.textAt(0, mostBytes), limitDepth, /*allow_exceptions=*/false);
     if (document.is_discarded() || tooDeep || !document.is_object())
         throw InvalidInput(file.name(), "as a JSON sidecar it is not valid", "it must be one JSON object");
     return document;
