@@ -1,4 +1,5 @@
-// The one error family. Each kind maps to an exit code (server/cli) and an HTTP status (server/http) in one place.
+// The one error family. Each kind maps to an exit code (server/cli) and an HTTP status (server/http) in one
+// place.
 #pragma once
 
 #include <stdexcept>
@@ -20,7 +21,7 @@ enum class ErrorKind {
 
 /// A failure in the words that a user reads: `what: why; what to do`.
 class Error : public std::runtime_error {
-  public:
+public:
     /// \param what  the thing at fault, e.g. a file, a key, a device
     /// \param why   one clause
     /// \param toDo  what the user can do about it; may be empty
@@ -33,12 +34,12 @@ class Error : public std::runtime_error {
 
     /// The style key, JSON member or option at fault; empty when none is.
     [[nodiscard]] const std::string& field() const noexcept { return field_; }
-    Error& withField(std::string field) {
+    Error& withField(std::string field) & {
         field_ = std::move(field);
         return *this;
     }
 
-  private:
+private:
     ErrorKind kind_;
     std::string subject_;
     std::string why_;
@@ -47,13 +48,16 @@ class Error : public std::runtime_error {
 };
 
 /// Same text, kind by type, so that `throw InvalidInput(...)` reads well and can be caught apart.
-template <ErrorKind Kind> class ErrorOf : public Error {
-  public:
+template <ErrorKind Kind>
+class ErrorOf : public Error {
+public:
     explicit ErrorOf(std::string what, std::string why, std::string toDo = {})
         : Error(Kind, std::move(what), std::move(why), std::move(toDo)) {}
-    ErrorOf& withField(std::string field) {
+    using Error::withField;
+    /// `throw InvalidInput(...).withField("camera.fov")`
+    ErrorOf withField(std::string field) && {
         Error::withField(std::move(field));
-        return *this;
+        return std::move(*this);
     }
 };
 

@@ -1,4 +1,5 @@
-// Logging of the renderer: a line goes to the sink that the program installs (the server: spdlog; default: stderr).
+// Logging of the renderer: a line goes to the sink that the program installs (the server: spdlog; default:
+// stderr).
 #pragma once
 
 #include <functional>

@@ -18,8 +18,10 @@ double InteractiveQuality::predictedMs(double fullPixels, int step) const {
 
 int InteractiveQuality::choose(double fullPixels) {
     if (costMs_ == 0.0) return step_;
-    while (step_ + 1 < kQualityStepCount && predictedMs(fullPixels, step_) > budgetMs_) ++step_;
-    while (step_ > 0 && predictedMs(fullPixels, step_ - 1) < 0.75 * budgetMs_) --step_;
+    while (step_ + 1 < kQualityStepCount && predictedMs(fullPixels, step_) > budgetMs_)
+        ++step_;
+    while (step_ > 0 && predictedMs(fullPixels, step_ - 1) < 0.75 * budgetMs_)
+        --step_;
     return step_;
 }
 

@@ -14,7 +14,7 @@ namespace voxsheet {
 enum class ValueScale { Linear, Log, SymLog };
 
 /// Where the colours come from. Piecewise: from the colour map (control points). The others: the R, G, B
-/// functions with two cuts after Khanduja & Karki 2006, figure 2 (a picture only, so these are our formulas).
+/// functions with two cuts after Khanduja & Karki 2007, figure 2 (a picture only, so these are our formulas).
 /// With s the position in the range, c1 = cut1, c2 = cut2, m = (c1 + c2) / 2 and u1 = clamp((s - c1) / (m -
 /// c1)), u2 = clamp((s - m) / (c2 - m)):
 ///   B = 1 - f(u1)      G = f(u1) - f(u2)      R = f(u2)

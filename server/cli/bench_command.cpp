@@ -1,4 +1,5 @@
 #include "base/errors.h"
+#include "bench/volume_bench.h"
 #include "cli/bench/stream_bench.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
@@ -51,6 +52,24 @@ Action addStream(CLI::App& app) {
     return withOutput(app, [options] { return runStreamBench(*options); });
 }
 
+Action addVolume(CLI::App& app) {
+    auto options = std::make_shared<bench::VolumeBenchOptions>();
+    auto type = std::make_shared<std::string>("u8");
+    app.add_option("--samples", options->samples, "Samples per edge of the volume")
+        ->check(CLI::Range(16, 1024));
+    app.add_option("--pixels", options->pixels, "Edge of the square picture")->check(CLI::Range(16, 4096));
+    app.add_option("--frames", options->frames, "Frames per case, of which the median counts")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--type", *type, "Type of the samples")->check(CLI::IsMember({"u8", "u16", "f32"}));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    return withOutput(app, [options, type] {
+        options->type = scalarFromName(*type).value();
+        return nlohmann::json::parse(bench::volumeBench(*options, [](const std::string& name) {
+            std::fprintf(stderr, "bench volume: %s\n", name.c_str());
+        }));
+    });
+}
+
 } // namespace
 
 Action addBench(CLI::App& app) {
@@ -65,6 +84,7 @@ Action addBench(CLI::App& app) {
         auto* bench = app.add_subcommand(name, text);
         benches->push_back({bench, define(*bench)});
     };
+    add("volume", "Time and quality of every volume rendering technique on one volume", &addVolume);
     add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
     return [benches] {
         for (const auto& bench : *benches)

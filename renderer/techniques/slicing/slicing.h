@@ -1,5 +1,5 @@
 // Direct volume rendering by view-aligned slices of the 3D texture, blended back to front (Cabral et al.
-// 1994; Khanduja & Karki 2006, "Volume rendering").
+// 1994; Khanduja & Karki 2007, "Volume rendering").
 //
 // Slices are slabs between planes at right angles to the view direction: slab k holds the view depths [c + k
 // D, c + (k + 1) D], for all integers k, with c the depth of the centre of the volume's box and D the depth
