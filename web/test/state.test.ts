@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Refresher } from "../src/app/refresher";
 import { groupKeys, keyLabel, readValue, sliderSpan, valueText } from "../src/model/keys";
-import { formatBytes, formatNumber } from "../src/model/format";
+import { formatBytes, formatNumber, formatUnit } from "../src/model/format";
 import { newAppStore } from "../src/state/app_state";
 import { selectColumn } from "../src/model/selection";
 
@@ -71,5 +71,6 @@ test("values read back as they were shown", () => {
 test("numbers read well", () => {
     assert.deepEqual([0, 0.02134567, 312, 1.2e-7, -4.5, 2e9].map((value) => formatNumber(value)), ["0", "0.02135", "312", "1.2e−7", "−4.5", "2e9"]);
     assert.equal(formatNumber(null), "–");
+    assert.deepEqual(["e/Å^3", "HU", "m^-1", "x^5", ""].map(formatUnit), ["e/Å³", "HU", "m⁻¹", "x^5", ""]);
     assert.equal(formatBytes(12_345_678), "12\u2009MB");
 });

@@ -46,8 +46,18 @@ export function formatPercent(part: number | null | undefined): string {
     return part === null || part === undefined ? "" : `${Math.round(100 * part)}${thinSpace}%`;
 }
 
+const raised: Record<string, string> = { "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "6": "⁶" };
+
+/** "e/Å^3" as people write it: "e/Å³". */
+export function formatUnit(unit: string | null | undefined): string {
+    return (unit ?? "").replace(/\^(-?[0-9])/g, (text, power: string) => {
+        const signs = [...power].map((sign) => raised[sign]);
+        return signs.every((sign) => sign !== undefined) ? signs.join("") : text;
+    });
+}
+
 export function withUnit(text: string, unit: string | null | undefined): string {
-    return unit ? `${text}${thinSpace}${unit}` : text;
+    return unit ? `${text}${thinSpace}${formatUnit(unit)}` : text;
 }
 
 /** "run2" before "run10". */

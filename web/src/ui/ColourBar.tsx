@@ -1,6 +1,6 @@
 // Which colour means which value: in each tile, or once in the column's header where the range is shared.
 import type { ColourBarInfo } from "../api/types";
-import { formatNumber, withUnit } from "../model/format";
+import { formatNumber, formatUnit, withUnit } from "../model/format";
 import { cellOf, currentSheet } from "../state/book";
 import { useSelect } from "./app_context";
 
@@ -27,7 +27,7 @@ export function ColourBar({ cell }: { cell: string }) {
     if (!bar || !shown || (bar.shared && !enlarged)) return null;
     return (
         <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
-            <span class="bar-unit">{[bar.quantity, bar.unit].filter(Boolean).join(" / ")}</span>
+            <span class="bar-unit">{[bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ")}</span>
             <div class="bar-scale" style={{ background: gradient(bar.stops, "to top") }}>
                 {bar.ticks.map((tick) => (
                     <span key={tick.label} style={{ bottom: `${100 * tick.pos}%` }}>

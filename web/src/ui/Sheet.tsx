@@ -10,7 +10,7 @@ import { focusTitle, insertReference } from "./FormulaBar";
 import { SheetTabs } from "./SheetTabs";
 import { Tile } from "./Tile";
 
-const smallestTile = { width: 200, height: 170 };
+const smallestTile = { width: 150, height: 140 };
 const rowHeaderPixels = 32;
 const columnHeaderPixels = 28;
 
