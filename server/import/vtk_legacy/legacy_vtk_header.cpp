@@ -111,6 +111,10 @@ private:
             if (!n || *n < 1 || *n > (1 << 24)) damaged("its dimensions are not three whole numbers above 0");
             header_.dims[static_cast<int>(axis)] = static_cast<int>(*n);
         }
+        const auto& n = header_.dims;
+        if (double(n.x) * n.y * n.z > 0x1p40) // beyond any grid, and products of it would overflow
+            throw LimitExceeded(file_.name(), "its dimensions give more than 2^40 points",
+                                "the file is probably damaged");
         haveDims_ = true;
     }
 
