@@ -1,12 +1,16 @@
 // A list of colour maps, each as its gradient.
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { ColourMap, StyleValue } from "../api/types";
+import { formatAddress } from "../model/address";
 import { useSelect } from "./app_context";
 import { gradient } from "./ColourBar";
 import { popupPlace } from "./popup_place";
 
+/** A map that is chosen from the data has no stops of its own: it looks as the active cell's colour bar does. */
 function Swatch({ map }: { map: ColourMap | undefined }) {
-    return <i class="swatch" style={map ? { background: gradient(map.stops, "to right") } : {}} />;
+    const drawn = useSelect((state) => state.book.bars[formatAddress(state.page.selection.active)]);
+    const stops = map?.stops ?? drawn?.stops;
+    return <i class="swatch" style={stops ? { background: gradient(stops, "to right") } : {}} />;
 }
 
 export function ColourMapPicker({ id, value, choices, set }: {

@@ -13,6 +13,7 @@ import { Tile } from "./Tile";
 const smallestTile = { width: 150, height: 140 };
 const rowHeaderPixels = 32;
 const columnHeaderPixels = 28;
+const titlePixels = 26;
 
 function modifiersOf(event: MouseEvent): { extend: boolean; toggle: boolean } {
     return { extend: event.shiftKey, toggle: event.ctrlKey || event.metaKey };
@@ -103,8 +104,8 @@ function RowHeader({ row, title }: { row: number; title: string | undefined }) {
 function useTileSize(sheet: SheetState, area: { width: number; height: number }): { width: number; height: number } {
     const width = Math.max(smallestTile.width, (area.width - rowHeaderPixels) / Math.max(1, sheet.columns));
     const fit = (area.height - columnHeaderPixels) / Math.max(1, sheet.rows);
-    // Few rows need not be towers: a picture much higher than wide shows mostly background.
-    const height = Math.max(smallestTile.height, Math.min(fit, width * 1.25));
+    // The angle of view is that of the height: a picture higher than wide would cut the volume off at its sides.
+    const height = Math.max(smallestTile.height, Math.min(fit, width + titlePixels));
     return { width: Math.floor(width), height: Math.floor(height) };
 }
 
