@@ -121,12 +121,25 @@ export class CellActions {
         await this.sync.book.request();
     }
 
-    async save(path?: string): Promise<void> {
+    /** To the workbook's own file; one without a file is asked where to go. */
+    async save(): Promise<void> {
+        try {
+            await saveWorkbook();
+            this.notices.info("Workbook saved.");
+        } catch (problem) {
+            if (!(problem instanceof ApiProblem)) throw problem;
+            if (problem.status === 0 || problem.status >= 500) this.notices.error(problem.message);
+            else this.store.dispatch({ type: "page/leftPanel", panel: "save", reason: problem.message });
+        }
+    }
+
+    async saveAs(path: string): Promise<boolean> {
         const done = await this.notices.attempt(async () => {
             await saveWorkbook(path);
             return true;
         });
-        if (done) this.notices.info("Workbook saved.");
+        if (done) this.notices.info(`Workbook saved as ${path}.`);
+        return done === true;
     }
 
     async loadWorkbook(file: File): Promise<void> {

@@ -125,7 +125,7 @@ class Shortcuts {
             const cell = page.enlarged;
             view.enlarge(null);
             this.targets.focusPicture(cell);
-        } else if (page.leftPanel === "open") store.dispatch({ type: "page/leftPanel", panel: "datasets" });
+        } else if (page.leftPanel === "open" || page.leftPanel === "save") store.dispatch({ type: "page/leftPanel", panel: "datasets" });
     }
 
     private aspectOf(cell: string): number {

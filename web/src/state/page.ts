@@ -5,7 +5,7 @@ import type { Scope } from "../model/scope";
 import { firstCell, type Selection } from "../model/selection";
 
 export type Theme = "dark" | "light";
-export type LeftPanel = "datasets" | "open";
+export type LeftPanel = "datasets" | "open" | "save";
 
 export interface Notice {
     id: number;
@@ -24,6 +24,8 @@ export interface PageSlice {
     moving: boolean;
     enlarged: string | null;
     leftPanel: LeftPanel | null;
+    /** Why the save panel asks for a file. */
+    saveReason: string;
     inspector: boolean;
     help: boolean;
     theme: Theme;
@@ -44,6 +46,7 @@ export const newPage: PageSlice = {
     moving: false,
     enlarged: null,
     leftPanel: "datasets",
+    saveReason: "",
     inspector: true,
     help: false,
     theme: "dark",
@@ -62,7 +65,7 @@ export type PageAction =
     | { type: "page/live"; live: Record<string, StylePatch> }
     | { type: "page/moving"; moving: boolean }
     | { type: "page/enlarge"; cell: string | null }
-    | { type: "page/leftPanel"; panel: LeftPanel | null }
+    | { type: "page/leftPanel"; panel: LeftPanel | null; reason?: string }
     | { type: "page/inspector"; open: boolean }
     | { type: "page/help"; open: boolean }
     | { type: "page/theme"; theme: Theme }
@@ -96,7 +99,7 @@ export function reducePage(state: PageSlice, action: PageAction): PageSlice {
         case "page/enlarge":
             return { ...state, enlarged: action.cell };
         case "page/leftPanel":
-            return { ...state, leftPanel: action.panel };
+            return { ...state, leftPanel: action.panel, saveReason: action.reason ?? "" };
         case "page/inspector":
             return { ...state, inspector: action.open };
         case "page/help":

@@ -5,9 +5,11 @@ import type { Dataset } from "../api/types";
 import { formatAddress } from "../model/address";
 import { formatBytes, formatDims, formatNumber, formatPercent, naturalOrder, withUnit } from "../model/format";
 import type { Upload } from "../state/book";
+import type { LeftPanel } from "../state/page";
 import { useApp, useSelect } from "./app_context";
 import { IconButton } from "./IconButton";
 import { OpenPanel } from "./OpenPanel";
+import { SavePanel } from "./SavePanel";
 import { datasetDragType } from "./Sheet";
 
 function DatasetFacts({ dataset }: { dataset: Dataset }) {
@@ -198,12 +200,16 @@ function DatasetList() {
     );
 }
 
+const panelNames: Record<LeftPanel, string> = { datasets: "Data", open: "Open from the server", save: "Save the workbook" };
+
 export function DataPanel() {
     const panel = useSelect((state) => state.page.leftPanel);
     if (panel === null) return null;
     return (
-        <aside class={`panel left-panel ${panel === "open" ? "wide" : ""}`} aria-label={panel === "open" ? "Open from the server" : "Data"}>
-            {panel === "open" ? <OpenPanel /> : <DatasetList />}
+        <aside class={`panel left-panel ${panel === "datasets" ? "" : "wide"}`} aria-label={panelNames[panel]}>
+            {panel === "open" && <OpenPanel />}
+            {panel === "save" && <SavePanel />}
+            {panel === "datasets" && <DatasetList />}
         </aside>
     );
 }

@@ -13,6 +13,21 @@ import { KeyControl } from "./KeyControl";
 import { Menu } from "./Menu";
 import { TransferEditor } from "./TransferEditor";
 
+function TitleField({ cell }: { cell: CellState }) {
+    const app = useApp();
+    return (
+        <div class="title-field">
+            <label for="cell-title">Title</label>
+            <input
+                id="cell-title"
+                key={cell.cell}
+                value={cell.title ?? ""}
+                onChange={(event) => void app.cells.setTitle(cell.cell, event.currentTarget.value)}
+            />
+        </div>
+    );
+}
+
 function ScopeChooser() {
     const app = useApp();
     const selection = useSelect((state) => state.page.selection);
@@ -148,6 +163,7 @@ export function Inspector() {
     const open = useSelect((state) => state.page.inspector);
     const title = useSelect((state) => describeSelection(state.page.selection));
     const keys = useSelect((state) => state.connection.keys);
+    const cells = useSelect((state) => state.page.selection.kind === "cells");
     const cell = useSelect((state) => {
         const sheet = currentSheet(state.book);
         const { active } = state.page.selection;
@@ -171,6 +187,7 @@ export function Inspector() {
             <ScopeChooser />
             <HiddenMessage />
             <div class="key-groups">
+                {cells && cell && cell.state !== "empty" && <TitleField cell={cell} />}
                 {cell && groupKeys(keys, cell).map((group) => <Group key={group.name} name={group.name} keys={group.keys} cell={cell} />)}
                 {!cell && <p class="hint">Nothing to set yet.</p>}
             </div>

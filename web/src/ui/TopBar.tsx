@@ -12,7 +12,9 @@ import {
     Undo2,
 } from "lucide-preact";
 import { cellImageUrl, sheetImageUrl } from "../api/sheets";
+import type { Query } from "../api/http";
 import { formatAddress } from "../model/address";
+import type { StylePatch } from "../model/camera";
 import { viewOverrides } from "../model/look";
 import { currentSheet } from "../state/book";
 import { useApp, useSelect } from "./app_context";
@@ -22,6 +24,13 @@ import { Menu, type MenuItem } from "./Menu";
 
 const exportPixels = { cellWidth: 640, cellHeight: 480 };
 
+/** Style values as queries take them: vectors as "0,0,1". */
+function styleQuery(style: StylePatch): Query {
+    return Object.fromEntries(
+        Object.entries(style).map(([key, value]) => [key, Array.isArray(value) ? value.join(",") : value]),
+    ) as Query;
+}
+
 function ExportMenu() {
     const app = useApp();
     const sheet = useSelect((state) => currentSheet(state.book));
@@ -29,13 +38,19 @@ function ExportMenu() {
     const look = useSelect((state) => state.page.look);
     if (!sheet) return null;
     const size = { width: exportPixels.cellWidth * sheet.columns, height: exportPixels.cellHeight * sheet.rows };
-    const cellStyle = { ...viewOverrides(look, sheet, {}).style, ...viewOverrides(look, sheet, {}).cells[active] };
-    const query = Object.fromEntries(
-        Object.entries(cellStyle).map(([key, value]) => [key, Array.isArray(value) ? value.join(",") : value]),
-    ) as Record<string, string | number>;
-    const cell = { width: exportPixels.cellWidth, height: exportPixels.cellHeight, ...query };
+    const view = viewOverrides(look, sheet, {});
+    const cell = {
+        width: exportPixels.cellWidth,
+        height: exportPixels.cellHeight,
+        ...styleQuery({ ...view.style, ...view.cells[active] }),
+    };
     const items: MenuItem[] = [
-        { label: "Sheet as PNG", hint: "saved view", href: sheetImageUrl(sheet.name, "png", size), download: `${sheet.name}.png` },
+        {
+            label: "Sheet as PNG",
+            hint: "this view",
+            href: sheetImageUrl(sheet.name, "png", { ...size, ...styleQuery(view.style) }),
+            download: `${sheet.name}.png`,
+        },
         {
             label: `Cell ${active} as PNG`,
             hint: "this view",
@@ -52,7 +67,8 @@ function ExportMenu() {
                 );
             },
         },
-        { label: "Workbook (JSON)", href: "api/v1/workbook", download: "workbook.json" },
+        { label: "Workbook as JSON", href: "api/v1/workbook", download: "workbook.json" },
+        { label: "Save the workbook on the server", hint: "Ctrl+S", onChoose: () => void app.cells.save() },
     ];
     return (
         <Menu label="Export" items={items}>
