@@ -13,7 +13,7 @@ export function EmptyState() {
     return (
         <div class="empty-state">
             <h1>A sheet of volumes</h1>
-            <p>Drop files here, open them from the server{hasDemo ? ", or look at the demo" : ""}.</p>
+            <p>Drop files here, {hasDemo ? "open from the server, or look at the demo" : "or open some from the server"}.</p>
             <div class="button-row">
                 <button
                     type="button"

@@ -18,7 +18,10 @@ function asText(value: unknown): string {
         return value.map(asText).filter(Boolean).join(", ");
     }
     if (typeof value === "object") {
+        const named = (value as { name?: unknown }).name;
+        if (typeof named === "string") return named;
         return Object.entries(value)
+            .filter(([, part]) => asText(part) !== "")
             .map(([key, part]) => `${key} ${asText(part)}`)
             .join(", ");
     }
