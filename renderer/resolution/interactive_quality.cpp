@@ -1,23 +1,34 @@
 #include "resolution/interactive_quality.h"
 
-#include <algorithm>
-
 namespace voxsheet {
 
+namespace {
+
+constexpr int kBelievedFrames = 240;
+
+} // namespace
+
 void InteractiveQuality::measured(double fullPixels, int step, double frameMs) {
-    const double work = fullPixels * kQualitySteps[step].relativeWork();
-    if (work <= 0.0 || frameMs <= 0.0) return;
-    const double cost = std::max(frameMs - overheadMs_, 0.05) / work;
-    costMs_ = costMs_ == 0.0 ? cost : 0.7 * costMs_ + 0.3 * cost;
+    if (fullPixels <= 0.0 || frameMs <= 0.0) return;
+    for (auto& cost : costs_)
+        if (++cost.age > kBelievedFrames) cost.msPerPixel = 0.0;
+    auto& cost = costs_.at(static_cast<std::size_t>(step));
+    const double measured = frameMs / fullPixels;
+    cost.msPerPixel = cost.msPerPixel == 0.0 ? measured : 0.7 * cost.msPerPixel + 0.3 * measured;
+    cost.age = 0;
+    last_ = step;
 }
 
 double InteractiveQuality::predictedMs(double fullPixels, int step) const {
-    if (costMs_ == 0.0) return 0.0;
-    return overheadMs_ + costMs_ * fullPixels * kQualitySteps[step].relativeWork();
+    if (last_ < 0) return 0.0;
+    const double known = costs_.at(static_cast<std::size_t>(step)).msPerPixel;
+    if (known > 0.0) return known * fullPixels;
+    const double ratio = kQualitySteps[step].relativeWork() / kQualitySteps[last_].relativeWork();
+    return costs_.at(static_cast<std::size_t>(last_)).msPerPixel * fullPixels * (0.5 + 0.5 * ratio);
 }
 
 int InteractiveQuality::choose(double fullPixels) {
-    if (costMs_ == 0.0) return step_;
+    if (last_ < 0) return step_;
     while (step_ + 1 < kQualityStepCount && predictedMs(fullPixels, step_) > budgetMs_)
         ++step_;
     while (step_ > 0 && predictedMs(fullPixels, step_ - 1) < 0.75 * budgetMs_)

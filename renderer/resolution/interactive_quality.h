@@ -3,6 +3,9 @@
 // room.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace voxsheet {
 
 /// Steps of quality, from full to coarsest. A step multiplies the picture's edges and the distance of
@@ -18,11 +21,13 @@ inline constexpr QualityStep kQualitySteps[] = {{1.0, 1.0}, {1.0, 2.0},   {0.75,
                                                 {0.5, 2.0}, {0.375, 2.5}, {0.25, 3.0}};
 inline constexpr int kQualityStepCount = static_cast<int>(sizeof(kQualitySteps) / sizeof(kQualitySteps[0]));
 
-/// Learns what a pixel at full quality costs and picks the step for the next frame.
+/// Learns what frames cost at the steps that were drawn and picks the step for the next one.
 ///
-/// Model: frameMs = overheadMs + costMs * pixels * relativeWork. `costMs` is an exponential mean (weight 0.3)
-/// over measured frames. A finer step is taken only when its prediction stays below 75 % of the budget
-/// (hysteresis), a coarser one as soon as the current step's prediction exceeds the budget.
+/// Per step: an exponential mean (weight 0.3) of ms per tile pixel, believed for the next 240 frames. A step
+/// without one is extrapolated from the step measured last, taking half of its time as fixed: t (1/2 + work
+/// ratio / 2). So a finer step is tried when there is room, and what it really costs is remembered. A finer
+/// step is taken only when its prediction stays below 75 % of the budget (hysteresis), a coarser one as soon
+/// as the current step's prediction exceeds the budget.
 class InteractiveQuality {
 public:
     /// \param budgetMs wanted time per frame, > 0
@@ -37,9 +42,13 @@ public:
     [[nodiscard]] double predictedMs(double fullPixels, int step) const;
 
 private:
-    static constexpr double overheadMs_ = 2.0;
+    struct Cost {
+        double msPerPixel = 0.0; ///< 0: not known
+        int age = 0;             ///< frames since it was measured
+    };
     double budgetMs_;
-    double costMs_ = 0.0;
+    std::array<Cost, static_cast<std::size_t>(kQualityStepCount)> costs_{};
+    int last_ = -1; ///< step measured last
     int step_ = 3;
 };
 

@@ -84,7 +84,7 @@ private:
     // Of the writer thread alone.
     std::deque<std::string> outbox_;
     std::map<sheet::Address, Shown> shown_;
-    InteractiveQuality quality_{45.0};
+    InteractiveQuality quality_{50.0};
     std::uint64_t frame_ = 0;
     std::uint64_t sequence_ = 0;
     bool greeted_ = false;

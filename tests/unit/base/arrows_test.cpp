@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
         {"import", {"volume", "store"}},
         {"engine", {"sheet", "frame", "resolution", "store", "import", "configs"}},
         {"stream", {"engine"}},
-        {"http", {"stream", "web"}},
+        {"http", {"stream", "embedded"}}, // embedded: the page (web/)
         {"cli", {"http", "bench"}},
     };
     return table;

@@ -37,6 +37,18 @@ TEST(InteractiveQuality, SlowMachineStaysWithinBudget) {
     EXPECT_LE(step, 3) << "coarser than the budget asks for";
 }
 
+TEST(InteractiveQuality, FixedCostDoesNotHoldItAtTheCoarsestStep) {
+    // 12 ms of every frame do not depend on its pixels: a model without them would never dare a finer step.
+    InteractiveQuality quality(60.0);
+    const double cost = 60.0 / 600e3;
+    int step = kQualityStepCount - 1;
+    for (int frame = 0; frame < 30; ++frame) {
+        quality.measured(600e3, step, 12.0 + drawn(cost, 600e3, step));
+        step = quality.choose(600e3);
+    }
+    EXPECT_LE(step, 1);
+}
+
 TEST(InteractiveQuality, SteadyTimesDoNotFlicker) {
     InteractiveQuality quality(60.0);
     const double cost = 110.0 / 600e3;
