@@ -90,6 +90,14 @@ TEST_F(ApiAccess, UnknownPathsLookLikeAnyOtherWithoutToken) {
     EXPECT_EQ(program_->get("/api/v1/nothing").status, 404);
 }
 
+TEST_F(ApiAccess, APersonWithoutTokenGetsAPageToRead) {
+    const auto page = program_->askBare("GET", "/", "Host: localhost\r\nAccept: text/html,*/*\r\n");
+    EXPECT_EQ(page.status, 401);
+    EXPECT_EQ(page.field("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_NE(page.body.find("<form"), std::string::npos);
+    EXPECT_EQ(page.body.find(program_->token()), std::string::npos);
+}
+
 TEST_F(ApiAccess, PageSetsACookieThatOpensTheRest) {
     const auto page = program_->askBare("GET", "/?token=" + program_->token(), "Host: localhost\r\n");
     EXPECT_EQ(page.status, 200);

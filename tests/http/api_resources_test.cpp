@@ -242,6 +242,8 @@ TEST_F(ApiResources, WorkbookRoundTripAndLostEdits) {
               200);
     EXPECT_EQ(json::parse(std::ifstream(target)).at("voxsheet"), 1);
     ASSERT_TRUE(program_->waitForImports());
+    for (const auto& dataset : getJson("/api/v1/datasets").at("datasets"))
+        EXPECT_EQ(dataset.at("state"), "ready") << dataset.dump();
 }
 
 /// Reads the messages of an open stream.

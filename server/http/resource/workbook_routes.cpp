@@ -4,6 +4,7 @@
 #include "http/resource/workbook_state.h"
 #include "http/route/json_answer.h"
 #include "http/route/problem.h"
+#include "sheet/workbook_json.h"
 
 #include <filesystem>
 
@@ -16,9 +17,10 @@ constexpr std::uint64_t kDocumentBytes = std::uint64_t{16} << 20U;
 std::string versionTag(std::uint64_t version) { return '"' + std::to_string(version) + '"'; }
 
 Response getDocument(const ApiContext& context) {
-    const auto version = context.engine.version();
-    auto response = jsonAnswer(context.engine.workbookJson());
-    response.headers.add("ETag", versionTag(version));
+    // Sources by absolute path: the document means the same wherever the workbook was saved last.
+    const auto workbook = context.engine.snapshot();
+    auto response = jsonAnswer(sheet::workbookToJson(*workbook));
+    response.headers.add("ETag", versionTag(workbook->version));
     return response;
 }
 
@@ -28,9 +30,8 @@ nlohmann::json undoState(const engine::Engine& engine) {
 
 /// What relative source paths of a document start from.
 std::filesystem::path documentFolder(const engine::Engine& engine) {
-    const auto& options = engine.options();
-    if (!options.workbookFile.empty()) return options.workbookFile.parent_path();
-    return options.roots.empty() ? std::filesystem::current_path() : options.roots.front();
+    const auto& file = engine.options().workbookFile;
+    return file.empty() ? std::filesystem::current_path() : std::filesystem::absolute(file).parent_path();
 }
 
 Response putDocument(const ApiContext& context, const Request& request) {

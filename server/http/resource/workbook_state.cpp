@@ -1,6 +1,7 @@
 #include "http/resource/workbook_state.h"
 
 #include "http/resource/edit_answer.h"
+#include "sheet/workbook_json.h"
 
 #include <map>
 
@@ -102,7 +103,7 @@ nlohmann::json workbookState(const engine::Engine& engine) {
     return {{"version", workbook->version},
             {"canUndo", engine.canUndo()},
             {"canRedo", engine.canRedo()},
-            {"workbook", engine.workbookJson()},
+            {"workbook", sheet::workbookToJson(*workbook)},
             {"sheets", std::move(sheets)}};
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "http/route/problem.h"
+#include "http/route/sign_in_page.h"
 
 #include <algorithm>
 #include <mutex>
@@ -157,7 +158,8 @@ Admission Application::admitOrThrow(const RequestHead& head, const Peer& peer) c
     // Whoever may not come in learns nothing about which paths exist.
     const auto verdict = policy_.judge(head, query, peer, match.route == nullptr || match.route->needsToken);
     if (verdict.status != 0) {
-        admission.refusal = problem(verdict.status, verdict.detail);
+        const bool signIn = verdict.status == 401 && wantsPage(head);
+        admission.refusal = signIn ? signInPage() : problem(verdict.status, verdict.detail);
         return admission;
     }
     query.remove("token");
