@@ -1,5 +1,5 @@
-// What stands in every cell of a workbook right now: a dataset, a formula's result, something on its way, or
-// an error.
+// What stands in every cell of a workbook right now: a dataset, a formula's result, something on its way,
+// or an error.
 #pragma once
 
 #include "engine/cell_state.h"

@@ -1,6 +1,7 @@
 #include "engine/cell_resolver.h"
 
 #include "base/errors.h"
+#include "engine/axis_ticks.h"
 #include "sheet/camera.h"
 
 #include <algorithm>
@@ -128,6 +129,13 @@ ResolvedTransfer resolveTransfer(const sheet::ResolvedStyle& resolved, const Col
     function.low = range.window.low;
     function.high = range.window.high;
     function.scale = style.range.scale;
+    if (function.scale == ValueScale::Log && function.high <= 0.0) {
+        throw InvalidInput("range.scale",
+                           "a logarithmic scale needs values above 0, and the range ends at " +
+                               numberLabel(function.high, 0.0),
+                           "choose linear or symlog")
+            .withField("range.scale");
+    }
     function.shape = transfer.shape;
     function.cut1 = transfer.cut1;
     function.cut2 = transfer.cut2;
@@ -177,16 +185,20 @@ double boxPathUnitLengths(const Grid& grid) {
 
 ValueSummary mergeSummaries(const std::vector<ValueSummary>& summaries) {
     ValueSummary merged;
+    bool integers = !summaries.empty();
     bool first = true;
     std::vector<float> values;
     for (const ValueSummary& each : summaries) {
         merged.min = first ? each.min : std::min(merged.min, each.min);
         merged.max = first ? each.max : std::max(merged.max, each.max);
         first = false;
+        integers = integers && each.integers;
         for (const double value : each.quantiles)
             values.push_back(static_cast<float>(value));
     }
-    return summariseValues(values, merged.min, merged.max);
+    merged = summariseValues(values, merged.min, merged.max);
+    merged.integers = integers;
+    return merged;
 }
 
 CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid, glm::ivec2 sizePixels) {

@@ -14,8 +14,8 @@ constexpr std::uint64_t kDefaultStoreLimit = 20ULL << 30U;
 int importWorkers(const EngineOptions& options) {
     const int cores =
         options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-    // Imports are children that read and build with several threads of their own; more of them only fight for
-    // memory.
+    // Imports are children that read and build with several threads of their own; more of them only fight
+    // for memory.
     return std::clamp(cores, 1, 4);
 }
 
@@ -23,6 +23,19 @@ std::vector<std::filesystem::path> allowedFolders(const EngineOptions& options) 
     std::vector<std::filesystem::path> folders = options.roots;
     if (!options.uploadDir.empty()) folders.push_back(options.uploadDir);
     return folders;
+}
+
+/// Sizes and times of the files; a file that is not there has none.
+std::string stampOf(const sheet::DatasetSource& source) {
+    std::string text;
+    for (const std::string& file : source.files) {
+        std::error_code error;
+        const auto bytes = std::filesystem::file_size(file, error);
+        const auto time = std::filesystem::last_write_time(file, error);
+        if (!error) text += std::to_string(bytes) + "@" + std::to_string(time.time_since_epoch().count());
+        text += "\n";
+    }
+    return text;
 }
 
 } // namespace
@@ -48,9 +61,28 @@ std::string DatasetKeeper::idOf(const sheet::DatasetSource& source) {
         -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::uint64_t DatasetKeeper::ensure(const sheet::DatasetSource& source, bool retry) {
-    const auto work = [this, source](const JobControl& control) { return import(source, control); };
-    return retry ? imports_.ensureOrRetry(idOf(source), work) : imports_.ensure(idOf(source), work);
+void DatasetKeeper::ensure(const sheet::DatasetSource& source) {
+    const std::string id = idOf(source);
+    if (imports_.find(id)) return;
+    {
+        const std::lock_guard lock(stampMutex_);
+        stamps_.try_emplace(id, stampOf(source));
+    }
+    imports_.ensure(id, [this, source](const JobControl& control) { return import(source, control); });
+}
+
+void DatasetKeeper::open(const sheet::DatasetSource& source) {
+    const std::string id = idOf(source);
+    const std::string stamp = stampOf(source);
+    bool changed = false;
+    {
+        const std::lock_guard lock(stampMutex_);
+        std::string& known = stamps_[id];
+        changed = known != stamp;
+        known = stamp;
+    }
+    imports_.ensureOrRetry(
+        id, [this, source](const JobControl& control) { return import(source, control); }, changed);
 }
 
 JobState DatasetKeeper::state(const sheet::DatasetSource& source) {

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -23,20 +24,22 @@ using Importer = std::function<std::string(const std::vector<std::filesystem::pa
 class DatasetKeeper {
 public:
     /// \param settled  called on a worker's thread: progress (empty source), or the source of an import that
-    /// is ready or
-    ///                 failed; formulas settle with an empty source, too
+    /// is ready or failed; formulas settle with an empty source, too
     DatasetKeeper(const EngineOptions& options, Importer importer,
                   std::function<void(bool settled, const std::string& importId)> changed);
 
     /// The id under which a source is imported: its files and options.
     [[nodiscard]] static std::string idOf(const sheet::DatasetSource& source);
-    /// Starts the import unless it is known. `retry`: also when it failed before.
-    std::uint64_t ensure(const sheet::DatasetSource& source, bool retry = false);
+    /// Starts the import unless it is known.
+    void ensure(const sheet::DatasetSource& source);
+    /// A user opened the source: starts it again if it failed before, or if a file changed since it was
+    /// imported.
+    void open(const sheet::DatasetSource& source);
     [[nodiscard]] JobState state(const sheet::DatasetSource& source);
     void cancel(const sheet::DatasetSource& source);
 
-    /// Starts what the workbook needs and tells what its cells hold. Computed once per version and change of
-    /// a job.
+    /// Starts what the workbook needs and tells what its cells hold. Computed once per version and change
+    /// of a job.
     [[nodiscard]] std::shared_ptr<const CellContents> contents(const sheet::KeyTable& keys,
                                                                const sheet::Workbook& workbook);
     /// [0, 1) of what a pending cell waits for.
@@ -60,6 +63,9 @@ private:
     std::shared_ptr<const store::VolumeStore> store_;
     std::shared_ptr<store::StoreVolumeProvider> volumes_;
     std::atomic<std::uint64_t> generation_{1}; ///< counts jobs that settled
+    std::mutex stampMutex_;
+    std::map<std::string, std::string>
+        stamps_; ///< by id: sizes and times of the files when the import was started
     std::mutex cacheMutex_;
     struct Cached {
         std::uint64_t version = 0;

@@ -88,16 +88,20 @@ struct Ramp {
 
 /// Height of the ramp at which the mean optical depth over the path is the target.
 double heightFor(const std::vector<double>& distances, const Ramp& ramp, double pathUnitLengths) {
+    std::vector<double> visible; // Values of the ramp that are not 0: this runs for every tile of a frame.
+    for (const double d : distances) {
+        if (d > ramp.begin) visible.push_back(ramp.of(d));
+    }
     const auto depth = [&](double height) {
         double sum = 0.0;
-        for (const double d : distances)
-            sum -= std::log1p(-height * ramp.of(d));
+        for (const double value : visible)
+            sum -= std::log1p(-height * value);
         return sum / static_cast<double>(distances.size()) * pathUnitLengths;
     };
     double low = 0.0;
     double high = kMaxOpacity;
     if (depth(high) <= kTargetDepth) return high;
-    for (int step = 0; step < 40; ++step) {
+    for (int step = 0; step < 20; ++step) {
         const double middle = (low + high) / 2.0;
         (depth(middle) < kTargetDepth ? low : high) = middle;
     }
@@ -156,7 +160,7 @@ double ValueSummary::quantile(double probability) const {
 ValueSummary summariseValues(std::vector<float>& values, double min, double max) {
     std::erase_if(values, [](float value) { return !std::isfinite(value); });
     std::sort(values.begin(), values.end());
-    ValueSummary summary{min, max, {}};
+    ValueSummary summary{min, max, false, {}};
     if (values.empty()) return summary;
     summary.quantiles.reserve(ValueSummary::kQuantiles);
     for (int i = 0; i < ValueSummary::kQuantiles; ++i) {
@@ -179,11 +183,15 @@ double backgroundValue(const ValueSummary& summary) {
 }
 
 bool opensDiverging(const ValueSummary& summary) {
+    if (summary.integers) return false;
     const double low = summary.quantile(0.005);
     const double high = summary.quantile(0.995);
     const double larger = std::max(-low, high);
-    return low < 0.0 && high > 0.0 && std::min(-low, high) > 0.1 * larger &&
-           std::abs(backgroundValue(summary)) < 0.25 * larger;
+    if (low >= 0.0 || high <= 0.0 || std::min(-low, high) <= 0.1 * larger) return false;
+    // A tenth of all samples within a twentieth of the range of one end: a filling value, no tail.
+    const double margin = 0.05 * (high - low);
+    if (summary.quantile(0.1) < low + margin || summary.quantile(0.9) > high - margin) return false;
+    return std::abs(backgroundValue(summary)) < 0.25 * larger;
 }
 
 ValueWindow defaultWindow(const ValueSummary& summary) {

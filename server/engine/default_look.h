@@ -2,22 +2,20 @@
 // diverge about zero, and which values are opaque. Pure functions of a summary of its values.
 //
 // The rules, all from the distribution of the values:
-//   1. Background: the narrowest interval that holds a quarter of the samples (air round a head, vacuum round
-//   a molecule,
-//      no difference at all). Its middle is the one value that most of the box has, so it must be
-//      transparent.
-//   2. Signed: values of both signs reach beyond a tenth of the larger magnitude and the background is near
-//   zero. Such
-//      data (differences, potentials, wave functions) open with a diverging map whose neutral colour is zero.
-//      CT in Hounsfield units is not signed in this sense: its background, air, lies at -1000.
+//   1. Background: the narrowest interval that holds a quarter of the samples (air round a head, vacuum
+//      round a molecule, no difference at all). Its middle is the one value that most of the box has, so it
+//      must be transparent.
+//   2. Signed: values of both signs reach beyond a tenth of the larger magnitude, the background is near
+//      zero, and the samples do not pile up at one end (air of a CT at -1000 HU). Such data (differences,
+//      potentials, wave functions) open with a diverging map whose neutral colour is zero. Plain integers
+//      (scans, counts) never do.
 //   3. Window: from the smallest to the largest value, unless a few extreme samples (nuclei, metal) would
-//   press all
-//      others into less than 60 % of the range; then the 0.2 % and 99.8 % quantiles. Signed: symmetric about
-//      zero.
+//      press all others into less than 60 % of the range; then the 0.2 % and 99.8 % quantiles. Signed:
+//      symmetric about zero.
 //   4. Opacity: zero at the background; it begins where Otsu's threshold splits the distances from the
-//   background, and
-//      grows with the power 1.5 to the 99 % quantile. Its height makes the mean optical depth through the box
-//      kTargetDepth, so that neither a filled box turns solid nor a sparse one vanishes.
+//      background, and grows with the power 1.5 to the 99 % quantile. Its height makes the mean optical
+//      depth through the box kTargetDepth, so that neither a filled box turns solid nor a sparse one
+//      vanishes.
 #pragma once
 
 #include "volume/transfer_function.h"
@@ -32,6 +30,7 @@ struct ValueSummary {
 
     double min = 0.0; ///< of the source values, all steps
     double max = 0.0;
+    bool integers = false; ///< the source holds integers without a slope
     std::vector<double>
         quantiles; ///< kQuantiles values, q(i / (kQuantiles-1)), never decreasing; empty: no finite value
 
@@ -70,8 +69,8 @@ struct ValueWindow {
 [[nodiscard]] std::vector<OpacityPoint> defaultOpacity(const ValueSummary& summary,
                                                        const TransferFunction& function, bool signedData,
                                                        double pathUnitLengths);
-/// For maximum intensity projection, where one sample makes the pixel: transparent at the background, opaque
-/// soon after.
+/// For maximum intensity projection, where one sample makes the pixel: transparent at the background,
+/// opaque soon after.
 [[nodiscard]] std::vector<OpacityPoint>
 defaultProjectionOpacity(const ValueSummary& summary, const TransferFunction& function, bool signedData);
 

@@ -1,75 +1,19 @@
 #include "engine/engine.h"
 
-#include "base/log.h"
 #include "engine/child_importer.h"
 #include "engine/colour_bar.h"
 #include "engine/colour_map.h"
-#include "engine/dataset_keeper.h"
-#include "engine/probe_service.h"
+#include "engine/engine_implementation.h"
 #include "engine/sheet_image.h"
-#include "engine/tile_identity.h"
-#include "engine/tile_maker.h"
-#include "engine/workbook_keeper.h"
 #include "sheet/dataset_names.h"
-#include "store/volume_store.h"
 
 #include <algorithm>
-#include <set>
-
-#include <sched.h>
-#include <unistd.h>
 
 namespace voxsheet::engine {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-EngineOptions completed(EngineOptions options) {
-    if (options.storeDir.empty()) options.storeDir = store::defaultStoreFolder();
-    if (options.uploadDir.empty()) options.uploadDir = options.storeDir.parent_path() / "uploads";
-    if (options.recoveryDir.empty()) options.recoveryDir = options.uploadDir;
-    if (options.memoryBudgetBytes == 0) {
-        const auto pages = static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_PHYS_PAGES)));
-        options.memoryBudgetBytes = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4;
-    }
-    if (options.threads <= 0) {
-        cpu_set_t cores;
-        options.threads = ::sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
-    }
-    std::error_code error;
-    for (const fs::path& folder : {options.storeDir, options.uploadDir}) {
-        fs::create_directories(folder, error);
-        if (error) {
-            throw IoError("folder '" + folder.string() + "'", "it cannot be made: " + error.message(),
-                          "choose another one with --store or --upload-dir");
-        }
-    }
-    return options;
-}
-
-std::shared_ptr<const sheet::KeyTable> keyTable() {
-    std::vector<std::string> maps = ColourMapTable::embedded().names();
-    maps.insert(maps.begin(), "auto");
-    return std::make_shared<const sheet::KeyTable>(sheet::makeKeyTable(std::move(maps)));
-}
-
-std::unique_ptr<RenderThread> renderThread(const EngineOptions& options,
-                                           std::shared_ptr<const VolumeProvider> volumes) {
-    if (!options.render) return nullptr;
-    return std::make_unique<RenderThread>(std::move(volumes),
-                                          RenderOptions{options.device, options.textureBudgetBytes});
-}
-
-std::string environmentOf(const RenderThread* thread) {
-    if (thread == nullptr) return "no device " + buildIdentity();
-    const RenderDevice& device = thread->device();
-    std::string text =
-        device.renderer + "\n" + device.vendor + "\n" + device.version + "\n" + buildIdentity();
-    for (const std::string& workaround : device.workarounds)
-        text += "\n" + workaround;
-    return text;
-}
 
 /// A file name in the folder that is not taken yet.
 fs::path freeFile(const fs::path& folder, const std::string& name) {
@@ -80,172 +24,6 @@ fs::path freeFile(const fs::path& folder, const std::string& name) {
 }
 
 } // namespace
-
-class Engine::Implementation {
-public:
-    explicit Implementation(EngineOptions given)
-        : options(completed(std::move(given))), keys(keyTable()),
-          datasets(options, childImporter(options),
-                   [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
-          thread(renderThread(options, datasets.volumes())),
-          tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), environmentOf(thread.get())),
-          probes(*keys, datasets.volumes()),
-          workbook(keys, options, [this](std::uint64_t version) { workbookChanged(version); }) {}
-
-    /// Jobs call back into everything below them.
-    ~Implementation() { datasets.stop(); }
-
-    void workbookChanged(std::uint64_t version) {
-        // Starts the imports and formulas that the new snapshot needs.
-        static_cast<void>(datasets.contents(*keys, *workbook.snapshot()));
-        notify(ChangeKind::Workbook, version);
-    }
-
-    void datasetsChanged(bool settled, const std::string& importId) {
-        const sheet::Snapshot now = workbook.snapshot();
-        if (settled) {
-            static_cast<void>(datasets.contents(*keys, *now));
-            if (!importId.empty()) noteSource(*now, importId);
-        }
-        notify(ChangeKind::Datasets, now->version);
-    }
-
-    /// Size and checksum of what was imported, for the workbook's file.
-    void noteSource(const sheet::Workbook& now, const std::string& importId) {
-        for (const auto& [name, source] : now.datasets) {
-            if (!source.checksum.empty() || DatasetKeeper::idOf(source) != importId ||
-                !datasets.state(source).meta)
-                continue;
-            try {
-                sheet::DatasetSource known = source;
-                known.bytes = 0;
-                for (const std::string& file : source.files)
-                    known.bytes += fs::file_size(file);
-                known.checksum = checksumOf(source.files);
-                workbook.amend(sheet::UpdateDataset{name, std::move(known)});
-            } catch (const std::exception& error) {
-                logWarning("no checksum of '" + name + "': " + error.what());
-            }
-        }
-    }
-
-    void notify(ChangeKind kind, std::uint64_t version) {
-        std::vector<ChangeListener> called;
-        {
-            const std::lock_guard lock(listenerMutex);
-            for (const auto& [id, listener] : listeners)
-                called.push_back(listener);
-        }
-        for (const ChangeListener& listener : called)
-            listener(kind, version);
-    }
-
-    DatasetInfo infoOf(const std::string& name, const sheet::DatasetSource& source) {
-        const JobState state = datasets.state(source);
-        DatasetInfo info;
-        info.name = name;
-        info.files.assign(source.files.begin(), source.files.end());
-        info.state = state.state;
-        info.progress = state.progress;
-        info.failure = state.failure;
-        info.meta = state.meta;
-        info.job = state.job;
-        return info;
-    }
-
-    const sheet::DatasetSource& sourceOf(const sheet::Workbook& now, const std::string& name) const {
-        const auto found = now.datasets.find(name);
-        if (found == now.datasets.end()) {
-            throw NotFound("dataset '" + name + "'", "there is no such dataset in the workbook",
-                           "list the datasets");
-        }
-        return found->second;
-    }
-
-    std::vector<std::string> import(const std::vector<ImportRequest>& requests, const ImportLayout& layout) {
-        std::vector<sheet::NamedDataset> added;
-        for (const ImportRequest& request : requests)
-            added.push_back(namedDataset(request));
-        std::vector<std::string> names;
-        workbook.applyWith([&](const sheet::Workbook& now) {
-            names = chooseNames(now, added);
-            sheet::AddDatasets command;
-            command.sheet = layout.sheet.empty() ? now.sheets.front().name : layout.sheet;
-            command.columns = layout.columns;
-            command.columnTitles = layout.columnTitles;
-            command.rowTitles = layout.rowTitles;
-            command.datasets = added;
-            for (std::size_t i = 0; i < names.size(); ++i)
-                command.datasets[i].name = names[i];
-            command.place = requests.empty() || requests.front().place;
-            return sheet::Command(std::move(command));
-        });
-        return names;
-    }
-
-    sheet::NamedDataset namedDataset(const ImportRequest& request) {
-        if (request.files.empty())
-            throw InvalidInput("import", "no file is named", "name at least one").withField("files");
-        sheet::NamedDataset dataset;
-        dataset.name = request.name;
-        dataset.place = request.cell;
-        for (const fs::path& file : request.files) {
-            dataset.source.files.push_back(datasets.roots().resolve(file).string());
-        }
-        dataset.source.options = request.options.is_null() ? "{}" : request.options.dump();
-        // Opening a file again is how a user tries again after a failure.
-        datasets.ensure(dataset.source, true);
-        return dataset;
-    }
-
-    static std::vector<std::string> chooseNames(const sheet::Workbook& now,
-                                                const std::vector<sheet::NamedDataset>& added) {
-        std::set<std::string> taken;
-        for (const auto& [name, source] : now.datasets)
-            taken.insert(name);
-        std::vector<std::string> unnamed;
-        for (const sheet::NamedDataset& each : added) {
-            if (each.name.empty()) {
-                unnamed.push_back(each.source.files.front());
-            } else if (!taken.insert(each.name).second) {
-                throw Conflict("dataset '" + each.name + "'", "the name is taken", "choose another one")
-                    .withField("name");
-            }
-        }
-        const std::vector<std::string> found = sheet::distinguishingNames(unnamed, taken);
-        std::vector<std::string> names;
-        auto next = found.begin();
-        for (const sheet::NamedDataset& each : added)
-            names.push_back(each.name.empty() ? *next++ : each.name);
-        return names;
-    }
-
-    std::shared_ptr<const CellContents> contents(const sheet::Workbook& snapshot) {
-        return datasets.contents(*keys, snapshot);
-    }
-
-    std::size_t indexOf(const sheet::Workbook& snapshot, const std::string& sheetName) const {
-        return sheetName.empty() ? 0 : sheet::sheetIndex(snapshot, sheetName);
-    }
-
-    std::future<FrameResult> render(const std::vector<TileSpec>& specs, FramePriority priority,
-                                    std::function<bool()> cancelled, PixelFormat format) const {
-        if (!thread)
-            throw Unsupported("pictures", "this engine was started without a renderer", "start it with one");
-        return thread->submit({specs, format}, priority, std::move(cancelled));
-    }
-
-    EngineOptions options;
-    std::shared_ptr<const sheet::KeyTable> keys;
-    std::mutex listenerMutex;
-    std::map<std::uint64_t, ChangeListener> listeners;
-    std::uint64_t lastListener = 0;
-    DatasetKeeper datasets;
-    std::unique_ptr<RenderThread> thread;
-    TileMaker tiles;
-    ProbeService probes;
-    WorkbookKeeper workbook;
-};
 
 Engine::Engine(EngineOptions options)
     : implementation_(std::make_unique<Implementation>(std::move(options))) {}
@@ -364,7 +142,7 @@ PreparedTile Engine::prepareTile(const sheet::Workbook& workbook, const std::str
                                  const TileQuality& quality) const {
     const std::size_t index = implementation_->indexOf(workbook, sheetName);
     const auto contents = implementation_->contents(workbook);
-    PreparedTile tile = implementation_->tiles.prepare(workbook, index, cell, view, quality, *contents);
+    PreparedTile tile = implementation_->tiles.prepare(workbook, index, cell, view, quality, contents);
     tile.progress = implementation_->datasets.progress(contentAt(*contents, {index, cell}));
     return tile;
 }
@@ -380,7 +158,7 @@ SheetImage Engine::renderSheet(const SheetImageRequest& request) const {
                                     [this](const std::vector<TileSpec>& specs, PixelFormat format) {
                                         return render(specs, FramePriority::Export, {}, format).get();
                                     }};
-    return composeSheet(request, *now, *implementation_->contents(*now), sources);
+    return composeSheet(request, *now, implementation_->contents(*now), sources);
 }
 
 std::vector<ProbeValue> Engine::probeWorld(const std::string& sheetName, const glm::dvec3& world) const {
@@ -396,7 +174,7 @@ std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const s
     const auto contents = implementation_->contents(*now);
     TileQuality quality;
     quality.sizePixels = sizePixels;
-    const PreparedTile tile = implementation_->tiles.prepare(*now, index, cell, view, quality, *contents);
+    const PreparedTile tile = implementation_->tiles.prepare(*now, index, cell, view, quality, contents);
     if (!tile.spec) return {};
     const DatasetMeta& meta = *contentAt(*contents, {index, cell}).meta;
     const auto world = implementation_->probes.underPixel(*tile.spec, meta, pixel);
@@ -413,7 +191,7 @@ nlohmann::json Engine::colourBar(const std::string& sheetName, const sheet::Addr
         throw NotFound("colour bar of cell " + sheet::addressName(cell), "the cell shows no volume",
                        "wait for its import, or see the cell's error");
     }
-    return describeColourBar(implementation_->tiles.look(*now, index, cell, view, *contents));
+    return describeColourBar(implementation_->tiles.look(*now, index, cell, view, contents));
 }
 
 nlohmann::json Engine::colourMaps() const { return describeColourMaps(ColourMapTable::embedded()); }

@@ -154,8 +154,8 @@ public:
     Engine& operator=(const Engine&) = delete;
 
     // --- datasets ---
-    /// Starts imports in the background (a job each); returns the names given. Throws InvalidInput if a path
-    /// lies outside the roots, NotFound if it does not exist, Conflict if the name is taken.
+    /// Starts imports in the background (a job each); returns the names given. Throws InvalidInput if a
+    /// path lies outside the roots, NotFound if it does not exist, Conflict if the name is taken.
     std::vector<std::string> importDatasets(const std::vector<ImportRequest>& requests,
                                             const ImportLayout& layout = {});
     /// Stores the bytes as a source in uploadDir under `fileName` (its last path component) and imports it.

@@ -42,23 +42,29 @@ void EntryJobs::stop() {
 
 std::uint64_t EntryJobs::ensure(const std::string& id, Work work) {
     const std::lock_guard lock(mutex_);
-    if (const auto known = jobs_.find(id); known != jobs_.end()) return known->second.state.job;
-    Job& job = jobs_[id];
+    return queueUnlessKnown(id, std::move(work));
+}
+
+std::uint64_t EntryJobs::ensureOrRetry(const std::string& id, Work work, bool anew) {
+    const std::lock_guard lock(mutex_);
+    const auto known = jobs_.find(id);
+    if (known != jobs_.end()) {
+        const DatasetState state = known->second.state.state;
+        if (state == DatasetState::Failed || (anew && state == DatasetState::Ready)) jobs_.erase(known);
+    }
+    return queueUnlessKnown(id, std::move(work));
+}
+
+std::uint64_t EntryJobs::queueUnlessKnown(const std::string& id, Work work) {
+    const auto [known, isNew] = jobs_.try_emplace(id);
+    Job& job = known->second;
+    if (!isNew) return job.state.job;
     job.state.job = ++lastJob_;
     job.work = std::move(work);
     job.cancelled = std::make_shared<std::atomic<bool>>(false);
     queue_.push_back(id);
     changed_.notify_all();
     return job.state.job;
-}
-
-std::uint64_t EntryJobs::ensureOrRetry(const std::string& id, Work work) {
-    {
-        const std::lock_guard lock(mutex_);
-        const auto known = jobs_.find(id);
-        if (known != jobs_.end() && known->second.state.state == DatasetState::Failed) jobs_.erase(known);
-    }
-    return ensure(id, std::move(work));
 }
 
 std::optional<JobState> EntryJobs::find(const std::string& id) const {

@@ -39,8 +39,8 @@ class EntryJobs {
 public:
     /// Makes the entry, or throws; Error becomes the failure's sentence, anything else an internal one.
     using Work = std::function<std::shared_ptr<const DatasetMeta>(const JobControl&)>;
-    /// Called on the worker's thread, with no lock held: `settled` when a job became ready or failed, else on
-    /// progress.
+    /// Called on the worker's thread, with no lock held: `settled` when a job became ready or failed, else
+    /// on progress.
     using Listener = std::function<void(const std::string& id, bool settled)>;
 
     EntryJobs(int workers, Listener listener);
@@ -53,8 +53,8 @@ public:
 
     /// Queues the work unless the id is known already. Returns its job number.
     std::uint64_t ensure(const std::string& id, Work work);
-    /// As ensure, but a job that failed starts again.
-    std::uint64_t ensureOrRetry(const std::string& id, Work work);
+    /// As ensure, but a job that failed starts again; with `anew` also one that is ready.
+    std::uint64_t ensureOrRetry(const std::string& id, Work work, bool anew = false);
     [[nodiscard]] std::optional<JobState> find(const std::string& id) const;
     /// A queued or running job fails as Cancelled; others stay as they are.
     void cancel(const std::string& id);
@@ -68,6 +68,8 @@ private:
         Work work;
         std::shared_ptr<std::atomic<bool>> cancelled;
     };
+    /// Called with the lock held.
+    std::uint64_t queueUnlessKnown(const std::string& id, Work work);
     void run();
     void execute(const std::string& id, const Work& work,
                  const std::shared_ptr<std::atomic<bool>>& cancelled);

@@ -36,9 +36,9 @@ struct FormulaTask {
 /// Bytes of memory that computeFormula needs at its peak.
 [[nodiscard]] std::uint64_t formulaMemoryBytes(const FormulaTask& task);
 
-/// The entry's metadata: the geometry of the first input, one field, one step, float. Uses the entry that the
-/// store has, or makes it. Throws LimitExceeded if formulaMemoryBytes exceeds the budget, Cancelled, and what
-/// store and provider throw.
+/// The entry's metadata: the geometry of the first input, one field, one step, float. Uses the entry that
+/// the store has, or makes it. Throws LimitExceeded if formulaMemoryBytes exceeds the budget, Cancelled,
+/// and what store and provider throw.
 [[nodiscard]] std::shared_ptr<const DatasetMeta>
 computeFormula(const FormulaTask& task, const store::VolumeStore& store, const VolumeProvider& volumes,
                std::uint64_t memoryBudgetBytes, const JobControl& control);

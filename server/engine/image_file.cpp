@@ -68,8 +68,8 @@ std::vector<unsigned char> withoutAlpha(const std::vector<unsigned char>& rgba) 
     return rgb;
 }
 
-/// OpenImageIO takes premultiplied pixels and divides for formats with straight alpha; its division works on
-/// linear values unless told otherwise, so it is done here.
+/// OpenImageIO takes premultiplied pixels and divides for formats with straight alpha; its division works
+/// on linear values unless told otherwise, so it is done here.
 void unpremultiply(std::vector<unsigned char>& rgba) {
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const unsigned alpha = rgba[i + 3];

@@ -8,14 +8,8 @@ namespace voxsheet::engine {
 
 namespace {
 
-/// Table look-up as the shaders do it.
 double opacityOf(const TransferTable& table, double value) {
-    if (std::isnan(value)) return 0.0;
-    const double position = (value - table.low) / (table.high - table.low);
-    if (position < 0.0) return static_cast<double>(table.below.w);
-    if (position > 1.0) return static_cast<double>(table.above.w);
-    const auto last = static_cast<double>(table.entries.size() - 1);
-    return static_cast<double>(table.entries[static_cast<std::size_t>(std::lround(position * last))].w);
+    return std::isnan(value) ? 0.0 : classify(table, value).w;
 }
 
 } // namespace

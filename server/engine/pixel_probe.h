@@ -38,8 +38,8 @@ struct RaySpan {
 [[nodiscard]] std::optional<RaySpan> spanInBox(const Ray& ray, const Grid& grid);
 
 /// The point that the eye sees: where the accumulated opacity passes one half; for maximum intensity
-/// projection the largest value; if nothing along the ray is that opaque, the point nearest to the middle of
-/// the box. Empty if the ray misses it.
+/// projection the largest value; if nothing along the ray is that opaque, the point nearest to the middle
+/// of the box. Empty if the ray misses it.
 [[nodiscard]] std::optional<glm::dvec3> pointUnderPixel(const TileSpec& tile, const Grid& grid,
                                                         const LevelSamples& level, glm::dvec2 pixel);
 

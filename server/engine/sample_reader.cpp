@@ -87,7 +87,10 @@ ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& me
         max = std::max(max, each.statistics.max);
     }
     if (min > max) min = max = 0.0;
-    return summariseValues(sorted, min, max);
+    ValueSummary summary = summariseValues(sorted, min, max);
+    const FieldMeta& described = meta.fields.at(static_cast<std::size_t>(field));
+    summary.integers = !isFloat(described.storedType) && described.valueScale == 1.0;
+    return summary;
 }
 
 std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta, int field,

@@ -69,8 +69,8 @@ std::string headerText(const std::map<int, sheet::Header>& headers, int line, co
 
 class Composer {
 public:
-    Composer(const SheetImageRequest& request, const sheet::Workbook& workbook, const CellContents& contents,
-             const SheetImageSources& sources)
+    Composer(const SheetImageRequest& request, const sheet::Workbook& workbook,
+             const std::shared_ptr<const CellContents>& contents, const SheetImageSources& sources)
         : request_(request), workbook_(workbook), contents_(contents), sources_(sources),
           sheetIndex_(request.sheet.empty() ? 0 : sheet::sheetIndex(workbook, request.sheet)),
           sheet_(workbook.sheets[sheetIndex_]), range_(request.range.value_or(usedRange(sheet_))) {
@@ -115,7 +115,7 @@ private:
                 const auto style = sheet::resolveStyle(sources_.keys, sheet_, cell.address, overlay()).style;
                 cell.annotations = request_.annotate ? style.annotations : sheet::Annotations::None;
                 cell.background = colourOf(style.background);
-                cell.state = contentAt(contents_, {sheetIndex_, cell.address}).state;
+                cell.state = contentAt(*contents_, {sheetIndex_, cell.address}).state;
                 cells_.push_back(std::move(cell));
             }
         }
@@ -263,7 +263,7 @@ private:
 
     const SheetImageRequest& request_;
     const sheet::Workbook& workbook_;
-    const CellContents& contents_;
+    const std::shared_ptr<const CellContents>& contents_;
     const SheetImageSources& sources_;
     std::size_t sheetIndex_;
     const sheet::Sheet& sheet_;
@@ -279,7 +279,8 @@ private:
 } // namespace
 
 SheetImage composeSheet(const SheetImageRequest& request, const sheet::Workbook& workbook,
-                        const CellContents& contents, const SheetImageSources& sources) {
+                        const std::shared_ptr<const CellContents>& contents,
+                        const SheetImageSources& sources) {
     return Composer(request, workbook, contents, sources).compose();
 }
 

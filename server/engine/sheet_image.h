@@ -17,8 +17,10 @@ struct SheetImageSources {
     std::function<FrameResult(const std::vector<TileSpec>&, PixelFormat)> render;
 };
 
-/// Throws InvalidInput (size, range, values of the view), NotFound (sheet), Unsupported (no font), GpuError.
+/// Throws InvalidInput (size, range, values of the view), NotFound (sheet), Unsupported (no font),
+/// GpuError.
 [[nodiscard]] SheetImage composeSheet(const SheetImageRequest& request, const sheet::Workbook& workbook,
-                                      const CellContents& contents, const SheetImageSources& sources);
+                                      const std::shared_ptr<const CellContents>& contents,
+                                      const SheetImageSources& sources);
 
 } // namespace voxsheet::engine

@@ -16,8 +16,8 @@ public:
     /// Folders that do not exist are left out.
     explicit SourceRoots(const std::vector<std::filesystem::path>& folders);
 
-    /// The canonical path, links followed. Throws NotFound if there is no such file, InvalidInput if it lies
-    /// below none of the folders or is no regular file.
+    /// The canonical path, links followed. Throws NotFound if there is no such file, InvalidInput if it
+    /// lies below none of the folders or is no regular file.
     [[nodiscard]] std::filesystem::path resolve(const std::filesystem::path& file) const;
     [[nodiscard]] const std::vector<std::filesystem::path>& folders() const { return folders_; }
 

@@ -52,6 +52,8 @@ private:
 void addTable(Collector& collector, const TransferTable& table) {
     collector.add(table.low);
     collector.add(table.high);
+    collector.add(static_cast<double>(table.scale));
+    collector.add(table.symLogThreshold);
     collector.add(table.below);
     collector.add(table.above);
     collector.add(table.nan);

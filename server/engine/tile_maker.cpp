@@ -6,20 +6,20 @@
 namespace voxsheet::engine {
 
 CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex, const sheet::Address& cell,
-                         const View& view, const CellContents& contents) {
+                         const View& view, const std::shared_ptr<const CellContents>& contents) {
     const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
     CellLook look;
     look.resolved = sheet::resolveStyle(keys_, sheet, cell, {view.all, view.cells, view.request});
     sheet::requireConsistent(look.resolved.style);
-    look.meta = contentAt(contents, {sheetIndex, cell}).meta;
+    look.meta = contentAt(*contents, {sheetIndex, cell}).meta;
     if (!look.meta) throw InternalError("cell " + sheet::addressName(cell), "it has nothing to show");
     const sheet::TypedStyle& style = look.resolved.style;
     look.shown = chooseField(style.field, style.timeStep, *look.meta);
     look.sharedRange = style.range.mode == sheet::RangeMode::Shared;
     const double path = boxPathUnitLengths(look.meta->grid);
     if (look.sharedRange) {
-        const ValueSummary shared = sharedSummary(workbook, sheetIndex, cell, look, contents);
-        look.transfer = resolveTransfer(look.resolved, maps_, shared, path);
+        const auto shared = sharedSummary(workbook, sheetIndex, cell, look, contents);
+        look.transfer = resolveTransfer(look.resolved, maps_, *shared, path);
     } else {
         const auto own = cache_.summary(*look.meta, look.shown.field, look.shown.step);
         look.transfer = resolveTransfer(look.resolved, maps_, *own, path);
@@ -27,16 +27,36 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
     return look;
 }
 
-ValueSummary TileMaker::sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex,
-                                      const sheet::Address& asking, const CellLook& own,
-                                      const CellContents& contents) {
+std::shared_ptr<const ValueSummary>
+TileMaker::sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                         const sheet::Address& asking, const CellLook& own,
+                         const std::shared_ptr<const CellContents>& contents) {
+    const sheet::Sheet& sheet = workbook.sheets[sheetIndex];
+    const bool shares =
+        sheet::resolveStyle(keys_, sheet, asking).style.range.mode == sheet::RangeMode::Shared;
+    if (shares) {
+        const std::lock_guard lock(mutex_);
+        if (shared_.version == workbook.version && shared_.sheetIndex == sheetIndex &&
+            shared_.contents == contents) {
+            return shared_.summary;
+        }
+    }
+    std::vector<ValueSummary> summaries = sharingSummaries(workbook, sheetIndex, *contents);
+    // Only the page's view or the request made it share: it joins the others without moving their ranges.
+    if (!shares) summaries.push_back(*cache_.summary(*own.meta, own.shown.field, own.shown.step));
+    auto merged = std::make_shared<const ValueSummary>(mergeSummaries(summaries));
+    if (shares) {
+        const std::lock_guard lock(mutex_);
+        shared_ = {workbook.version, sheetIndex, contents, merged};
+    }
+    return merged;
+}
+
+std::vector<ValueSummary> TileMaker::sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                                      const CellContents& contents) {
     const sheet::Sheet& sheet = workbook.sheets[sheetIndex];
     std::vector<ValueSummary> summaries;
     for (const auto& [address, cell] : sheet.cells) {
-        if (address == asking) {
-            summaries.push_back(*cache_.summary(*own.meta, own.shown.field, own.shown.step));
-            continue;
-        }
         const CellContent& content = contentAt(contents, {sheetIndex, address});
         if (content.state != CellState::Ready) continue;
         const sheet::ResolvedStyle other = sheet::resolveStyle(keys_, sheet, address);
@@ -48,15 +68,15 @@ ValueSummary TileMaker::sharedSummary(const sheet::Workbook& workbook, std::size
             continue; // That cell shows its own error; the others still share.
         }
     }
-    return mergeSummaries(summaries);
+    return summaries;
 }
 
 PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                 const sheet::Address& cell, const View& view, const TileQuality& quality,
-                                const CellContents& contents) {
+                                const std::shared_ptr<const CellContents>& contents) {
     PreparedTile tile;
     tile.cell = cell;
-    const CellContent& content = contentAt(contents, {sheetIndex, cell});
+    const CellContent& content = contentAt(*contents, {sheetIndex, cell});
     tile.code = content.code;
     tile.message = content.message;
     if (content.state == CellState::Pending) tile.progress = 0.0;

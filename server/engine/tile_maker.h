@@ -7,7 +7,9 @@
 #include "engine/look_cache.h"
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace voxsheet::engine {
 
@@ -30,23 +32,37 @@ public:
     /// The cell must be Ready. Throws InvalidInput (with field) if keys do not agree or the field is not
     /// there, NotFound if the cell lies outside the sheet, and what the provider throws.
     [[nodiscard]] CellLook look(const sheet::Workbook& workbook, std::size_t sheetIndex,
-                                const sheet::Address& cell, const View& view, const CellContents& contents);
+                                const sheet::Address& cell, const View& view,
+                                const std::shared_ptr<const CellContents>& contents);
 
     /// Errors of the cell's own are values in the result. Errors of `view.request` are thrown: the caller
     /// sent them.
     [[nodiscard]] PreparedTile prepare(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                        const sheet::Address& cell, const View& view,
-                                       const TileQuality& quality, const CellContents& contents);
+                                       const TileQuality& quality,
+                                       const std::shared_ptr<const CellContents>& contents);
 
 private:
-    [[nodiscard]] ValueSummary sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex,
-                                             const sheet::Address& asking, const CellLook& own,
-                                             const CellContents& contents);
+    /// Of all cells of the sheet whose own range.mode is shared, with `own` among them.
+    [[nodiscard]] std::shared_ptr<const ValueSummary>
+    sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex, const sheet::Address& asking,
+                  const CellLook& own, const std::shared_ptr<const CellContents>& contents);
+    [[nodiscard]] std::vector<ValueSummary>
+    sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex, const CellContents& contents);
     void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
 
     const sheet::KeyTable& keys_;
     const ColourMapTable& maps_;
     LookCache cache_;
+    /// Every tile of a frame asks for the same one.
+    struct SharedRange {
+        std::uint64_t version = 0;
+        std::size_t sheetIndex = 0;
+        std::shared_ptr<const CellContents> contents;
+        std::shared_ptr<const ValueSummary> summary;
+    };
+    std::mutex mutex_;
+    SharedRange shared_;
     std::string environment_; ///< device, driver, build: part of every identity
 };
 

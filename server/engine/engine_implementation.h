@@ -1,0 +1,71 @@
+// What stands behind the facade: the parts of a running engine, and how they call each other.
+#pragma once
+
+#include "engine/dataset_keeper.h"
+#include "engine/engine.h"
+#include "engine/probe_service.h"
+#include "engine/tile_maker.h"
+#include "engine/workbook_keeper.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace voxsheet::engine {
+
+class Engine::Implementation {
+public:
+    explicit Implementation(EngineOptions given);
+
+    /// Jobs call back into everything below them: they end first.
+    ~Implementation();
+
+    /// Starts the imports and formulas that the new snapshot needs.
+    void workbookChanged(std::uint64_t version);
+
+    /// \param importId  of an import that became ready or failed; empty for progress and formulas
+    void datasetsChanged(bool settled, const std::string& importId);
+
+    /// Size and checksum of what was imported, for the workbook's file.
+    void noteSource(const sheet::Workbook& now, const std::string& importId);
+
+    void notify(ChangeKind kind, std::uint64_t version);
+
+    [[nodiscard]] DatasetInfo infoOf(const std::string& name, const sheet::DatasetSource& source);
+
+    /// Throws NotFound.
+    [[nodiscard]] static const sheet::DatasetSource& sourceOf(const sheet::Workbook& now,
+                                                              const std::string& name);
+
+    /// As Engine::importDatasets, in the order given.
+    std::vector<std::string> import(const std::vector<ImportRequest>& requests, const ImportLayout& layout);
+
+    /// Checks the files and starts the import.
+    [[nodiscard]] sheet::NamedDataset namedDataset(const ImportRequest& request);
+
+    [[nodiscard]] static std::vector<std::string> chooseNames(const sheet::Workbook& now,
+                                                              const std::vector<sheet::NamedDataset>& added);
+
+    [[nodiscard]] std::shared_ptr<const CellContents> contents(const sheet::Workbook& snapshot);
+
+    /// Of the named sheet, or of the first if the name is empty. Throws NotFound.
+    [[nodiscard]] static std::size_t indexOf(const sheet::Workbook& snapshot, const std::string& sheetName);
+
+    [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& specs, FramePriority priority,
+                                                  std::function<bool()> cancelled, PixelFormat format) const;
+
+    EngineOptions options;
+    std::shared_ptr<const sheet::KeyTable> keys;
+    std::mutex listenerMutex;
+    std::map<std::uint64_t, ChangeListener> listeners;
+    std::uint64_t lastListener = 0;
+    DatasetKeeper datasets;
+    std::unique_ptr<RenderThread> thread;
+    TileMaker tiles;
+    ProbeService probes;
+    WorkbookKeeper workbook;
+};
+
+} // namespace voxsheet::engine

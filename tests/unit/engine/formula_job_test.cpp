@@ -1,0 +1,114 @@
+#include "base/errors.h"
+#include "engine/formula_job.h"
+#include "engine/sample_reader.h"
+#include "memory_dataset.h"
+#include "store/store_volume_provider.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace voxsheet::engine {
+namespace {
+
+using sheet::FormulaOp;
+
+/// B - A
+sheet::FormulaPlan difference() {
+    sheet::FormulaPlan plan;
+    plan.inputs = {{"b", std::int64_t{0}, 0}, {"a", std::int64_t{0}, 0}};
+    plan.steps = {{FormulaOp::Input, 0}, {FormulaOp::Input, 1}, {FormulaOp::Subtract, 0, 1}};
+    return plan;
+}
+
+class FormulaJob : public testing::Test {
+protected:
+    FormulaJob()
+        : store(std::make_shared<const store::VolumeStore>(folder.path() / "store")), results(store) {
+        test::addDataset(inputs, test::metaOf("a", {17, 9, 13}),
+                         [](int i, int j, int k) { return static_cast<float>(i + j + k); });
+        test::addDataset(inputs, test::metaOf("b", {17, 9, 13}), [](int i, int j, int k) {
+            return i == 0 && j == 0 && k == 0 ? std::nanf("") : static_cast<float>(3 * i + j + k);
+        });
+    }
+    FormulaTask task() {
+        return {difference(), {{inputs.describe("b"), 0, 0}, {inputs.describe("a"), 0, 0}}, "=B1-A1"};
+    }
+
+    test::TemporaryFolder folder;
+    MemoryVolumeProvider inputs;
+    std::shared_ptr<const store::VolumeStore> store;
+    store::StoreVolumeProvider results;
+};
+
+TEST_F(FormulaJob, TheResultIsAVolumeLikeAnyOther) {
+    const auto meta = computeFormula(task(), *store, inputs, 0, {});
+    EXPECT_EQ(meta->format, "formula");
+    EXPECT_EQ(meta->grid.dims, glm::ivec3(17, 9, 13));
+    EXPECT_EQ(meta->fields[0].unit, "e/Å^3");
+    EXPECT_EQ(meta->fields[0].steps[0].statistics.max, 32.0);
+    EXPECT_EQ(meta->fields[0].steps[0].statistics.nanCount, 1U);
+    const auto values = readValues(results, *meta, {meta->key, 0, 0, 0}, 0, 13);
+    EXPECT_TRUE(std::isnan(values[0]));
+    for (int k = 0; k < 13; ++k) {
+        for (int j = 0; j < 9; ++j) {
+            for (int i = k + j == 0 ? 1 : 0; i < 17; ++i) {
+                ASSERT_EQ(values[static_cast<std::size_t>((k * 9 + j) * 17 + i)], 2.0 * i);
+            }
+        }
+    }
+    EXPECT_NO_THROW(static_cast<void>(results.readMinMax({meta->key, 0, 0, 0})));
+}
+
+TEST_F(FormulaJob, TheSameFormulaIsComputedOnce) {
+    const FormulaTask formula = task();
+    const auto first = computeFormula(formula, *store, inputs, 0, {});
+    // With its inputs gone, only the store can answer.
+    inputs.remove("a");
+    inputs.remove("b");
+    EXPECT_EQ(computeFormula(formula, *store, inputs, 0, {})->key, first->key);
+}
+
+TEST_F(FormulaJob, TheKeyTellsArraysAndPlansApart) {
+    FormulaTask swapped = task();
+    std::swap(swapped.inputs[0], swapped.inputs[1]);
+    EXPECT_NE(formulaEntryKey(task()), formulaEntryKey(swapped));
+    FormulaTask sum = task();
+    sum.plan.steps[2].op = FormulaOp::Add;
+    EXPECT_NE(formulaEntryKey(task()), formulaEntryKey(sum));
+    FormulaTask renamed = task();
+    renamed.formula = "= B1 - A1";
+    EXPECT_EQ(formulaEntryKey(task()), formulaEntryKey(renamed)) << "spelling does not matter";
+}
+
+TEST_F(FormulaJob, ABudgetTooSmallIsSaidBeforeAnythingIsRead) {
+    EXPECT_THROW(static_cast<void>(computeFormula(task(), *store, inputs, 1000, {})), LimitExceeded);
+    EXPECT_EQ(store->open(formulaEntryKey(task())), nullptr);
+}
+
+TEST_F(FormulaJob, CancellingLeavesNothingInTheStore) {
+    JobControl control;
+    control.cancelled = [] { return true; };
+    EXPECT_THROW(static_cast<void>(computeFormula(task(), *store, inputs, 0, control)), Cancelled);
+    EXPECT_EQ(store->open(formulaEntryKey(task())), nullptr);
+}
+
+TEST(FormulaUnit, SumsKeepTheUnitAndProductsLoseIt) {
+    sheet::FormulaPlan plan = difference();
+    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "eV");
+    EXPECT_EQ(formulaUnit(plan, {"eV", "K"}), "");
+    plan.steps[2].op = FormulaOp::Multiply;
+    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "");
+    plan.steps[2].op = FormulaOp::Divide;
+    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "");
+    // abs(2 * B)
+    plan.steps = {{FormulaOp::Constant, -1, -1, 2.0},
+                  {FormulaOp::Input, 0},
+                  {FormulaOp::Multiply, 0, 1},
+                  {FormulaOp::Abs, 2}};
+    EXPECT_EQ(formulaUnit(plan, {"eV", "K"}), "eV");
+}
+
+} // namespace
+} // namespace voxsheet::engine
