@@ -1,0 +1,160 @@
+// The engine with a renderer: from files to the picture of a sheet.
+#include "base/errors.h"
+#include "engine/engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <unistd.h>
+
+namespace voxsheet::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+class EnginePicture : public testing::Test {
+protected:
+    void SetUp() override {
+        const fs::path importer = fs::path(VOXSHEET_BINARY_DIR) / "voxsheet-import";
+        if (!fs::exists(importer)) GTEST_SKIP() << "voxsheet-import is not built";
+        fs::create_directories(folder);
+        EngineOptions options;
+        options.storeDir = folder / "store";
+        options.uploadDir = folder / "uploads";
+        options.roots = {folder};
+        options.importer = importer;
+        try {
+            engine = std::make_unique<Engine>(options);
+        } catch (const GpuError& error) {
+            GTEST_SKIP() << error.what();
+        }
+    }
+    void TearDown() override {
+        engine.reset();
+        std::error_code ignored;
+        fs::remove_all(folder, ignored);
+    }
+
+    /// A ball of 200 in a box of 0, `edge` samples wide.
+    fs::path ball(const std::string& name, int edge) const {
+        std::string voxels;
+        for (int k = 0; k < edge; ++k)
+            for (int j = 0; j < edge; ++j)
+                for (int i = 0; i < edge; ++i) {
+                    const double r = std::hypot(i - edge / 2, j - edge / 2, k - edge / 2);
+                    voxels += r < edge * 0.35 ? static_cast<char>(200) : '\0';
+                }
+        const fs::path file = folder / name;
+        std::ofstream(file, std::ios::binary) << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: " << edge << " "
+                                              << edge << " " << edge << "\nencoding: raw\n\n"
+                                              << voxels;
+        return file;
+    }
+
+    void open(const std::vector<fs::path>& files) {
+        std::vector<ImportRequest> requests;
+        for (const fs::path& file : files) {
+            requests.emplace_back();
+            requests.back().files = {file};
+        }
+        engine->importDatasets(requests);
+        ASSERT_TRUE(engine->waitIdle(60));
+    }
+
+    static const unsigned char* pixel(const TilePixels& picture, int x, int y) {
+        return picture.rgba8.data() +
+               (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
+                static_cast<std::size_t>(x)) *
+                   4;
+    }
+
+    fs::path folder = fs::temp_directory_path() / ("voxsheet-picture-" + std::to_string(::getpid()));
+    std::unique_ptr<Engine> engine;
+};
+
+TEST_F(EnginePicture, AVolumeIsSeenWithNoFurtherSetting) {
+    open({ball("ball.nrrd", 32)});
+    SheetImageRequest request;
+    request.annotate = false;
+    request.sizePixels = {200, 200};
+    const SheetImage image = engine->renderSheet(request);
+    EXPECT_EQ(image.failedCells, 0);
+    EXPECT_TRUE(image.final);
+    const unsigned char* middle = pixel(image.pixels, 100, 100);
+    const unsigned char* corner = pixel(image.pixels, 10, 10);
+    EXPECT_GT(middle[0] + middle[1] + middle[2], corner[0] + corner[1] + corner[2] + 60);
+    EXPECT_EQ(corner[3], 255);
+}
+
+TEST_F(EnginePicture, EqualIdentitiesHaveEqualPixels) {
+    open({ball("ball.nrrd", 24)});
+    SheetImageRequest request;
+    request.sizePixels = {160, 160};
+    const SheetImage first = engine->renderSheet(request);
+    const SheetImage second = engine->renderSheet(request);
+    EXPECT_EQ(first.identity, second.identity);
+    EXPECT_EQ(first.pixels.rgba8, second.pixels.rgba8);
+    request.view.request["camera.azimuth"] = 12.0;
+    request.view.request["transfer.opacity"] = sheet::OpacityStops{{0.0, 0.0}, {1.0, 0.9}};
+    const SheetImage changed = engine->renderSheet(request);
+    EXPECT_NE(first.identity, changed.identity);
+    EXPECT_NE(first.pixels.rgba8, changed.pixels.rgba8);
+}
+
+TEST_F(EnginePicture, ABadFileIsALabelledTileAmongTheOthers) {
+    const fs::path bad = ball("bad.nrrd", 24);
+    fs::resize_file(bad, 500);
+    open({bad, ball("good.nrrd", 24)});
+    SheetImageRequest request;
+    request.sizePixels = {480, 260};
+    request.title = "Two balls";
+    SheetImage image;
+    try {
+        image = engine->renderSheet(request);
+    } catch (const Unsupported& error) {
+        GTEST_SKIP() << error.what();
+    }
+    EXPECT_EQ(image.failedCells, 1);
+    EXPECT_EQ(image.pixels.size, glm::ivec2(480, 260));
+    int reddish = 0; // the error's code
+    for (int y = 0; y < 260; ++y)
+        for (int x = 0; x < 240; ++x) {
+            const unsigned char* p = pixel(image.pixels, x, y);
+            reddish += p[0] > 150 && p[2] < 140 ? 1 : 0;
+        }
+    EXPECT_GT(reddish, 20);
+}
+
+TEST_F(EnginePicture, ATransparentBackgroundStaysTransparentInFloatsToo) {
+    open({ball("ball.nrrd", 24)});
+    SheetImageRequest request;
+    request.annotate = false;
+    request.sizePixels = {120, 120};
+    request.format = PixelFormat::Rgba32F;
+    engine->apply(sheet::SetStyle{
+        "Sheet1", sheet::Layer::sheet(), {{"background", sheet::Colour{{0, 0, 0, 0}}}}, false});
+    const SheetImage image = engine->renderSheet(request);
+    ASSERT_EQ(image.pixels.rgba32f.size(), 120U * 120U * 4U);
+    EXPECT_EQ(image.pixels.rgba32f[3], 0.0F);
+    EXPECT_GT(image.pixels.rgba32f[(60 * 120 + 60) * 4 + 3], 0.2F);
+}
+
+TEST_F(EnginePicture, OneTextureServesAllCellsOfADataset) {
+    open({ball("ball.nrrd", 24)});
+    const std::string name = engine->datasets().front().name;
+    engine->apply(sheet::InsertLines{"Sheet1", sheet::Axis::Columns, 1, 3});
+    for (const char* cell : {"B1", "C1", "D1"})
+        engine->apply(sheet::SetSource{"Sheet1", sheet::parseAddress(cell), name});
+    SheetImageRequest request;
+    request.annotate = false;
+    request.sizePixels = {400, 110};
+    EXPECT_EQ(engine->renderSheet(request).failedCells, 0);
+    EXPECT_EQ(engine->residency().textures, 1);
+}
+
+} // namespace
+} // namespace voxsheet::engine
