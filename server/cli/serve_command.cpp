@@ -1,5 +1,7 @@
 #include "base/log.h"
 #include "cli/commands.h"
+#include "cli/demo/demo_files.h"
+#include "cli/demo/demo_workbook.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
 #include "http/guard/token.h"
@@ -92,10 +94,17 @@ void saveWhatIsNotSaved(const engine::Engine& engine) {
 
 int runServe(const ServeArguments& arguments) {
     const auto signals = blockStopSignals();
-    engine::Engine engine(engineOptions(arguments.engine));
+    const auto options = engineOptions(arguments.engine);
+    engine::Engine engine(options);
     stream::TileService tiles(engine);
     stream::StreamHub hub(engine, tiles);
-    http::WebServer server(webOptions(arguments), engine, tiles, hub);
+    auto web = webOptions(arguments);
+    // The upload folder is one that sources may always lie in.
+    web.openDemo = [&engine, demoFolder = options.uploadDir / "demo"] {
+        writeDemo(demoFolder);
+        engine.setWorkbookJson(nlohmann::json::parse(demoWorkbookText()), demoFolder);
+    };
+    http::WebServer server(web, engine, tiles, hub);
     openSources(engine, arguments.engine);
     server.start();
     announce(server);

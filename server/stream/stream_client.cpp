@@ -306,13 +306,13 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         shown_[pending.tile.cell] = Shown{pending.prepared.identity, {}, image.final};
         ++tiles;
     }
-    emitStatus(plan, frameMs);
+    emitStatus(plan, view.id, frameMs);
     const std::lock_guard lock(mutex_);
     ++statistics_.frames;
     statistics_.tiles += tiles;
 }
 
-void StreamClient::emitStatus(const Plan& plan, double frameMs) {
+void StreamClient::emitStatus(const Plan& plan, std::uint64_t viewId, double frameMs) {
     std::size_t finalCells = plan.finalCells;
     int level = 0;
     for (const auto& pending : plan.tiles) {
@@ -322,6 +322,7 @@ void StreamClient::emitStatus(const Plan& plan, double frameMs) {
     }
     const auto residency = engine_.residency();
     push({{"type", "status"},
+          {"view", viewId},
           {"frameMs", frameMs},
           {"finalCells", finalCells},
           {"cells", plan.visibleCells},

@@ -60,7 +60,7 @@ private:
     /// Draws and encodes; false when a newer view made the work needless.
     bool draw(Plan& plan, std::uint64_t viewId);
     void emit(const Plan& plan, const ClientView& view, double frameMs);
-    void emitStatus(const Plan& plan, double frameMs);
+    void emitStatus(const Plan& plan, std::uint64_t viewId, double frameMs);
     void push(const nlohmann::json& header, std::string_view payload = {});
 
     const std::string id_;

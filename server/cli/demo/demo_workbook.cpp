@@ -81,16 +81,16 @@ void addTimeSteps(sheet::Workbook& workbook) {
     page.rowHeaders[2].style = {
         {"range.mode", std::string("fixed")},
         {"range.min", 0.0},
-        {"range.max", 0.01},
+        {"range.max", 0.004},
         {"transfer.map", std::string("viridis")},
         {"transfer.opacity",
-         sheet::OpacityStops{{0.0, 0.0}, {0.04, 0.0}, {0.15, 0.03}, {0.5, 0.08}, {1.0, 0.3}}},
+         sheet::OpacityStops{{0.0, 0.0}, {0.04, 0.0}, {0.12, 0.02}, {0.4, 0.05}, {0.9, 0.1}, {1.0, 0.3}}},
     };
     auto& change = page.cells[{3, 2}];
     change.source = "=C3-A3";
     change.title = "change over half a beat";
     change.style = {
-        {"range.min", -0.01},
+        {"range.min", -0.004},
         {"transfer.map", std::string("cool-warm")},
         {"transfer.opacity",
          sheet::OpacityStops{{0.0, 0.3}, {0.4, 0.05}, {0.48, 0.0}, {0.52, 0.0}, {0.6, 0.05}, {1.0, 0.3}}},
@@ -106,7 +106,7 @@ std::string demoWorkbookText() {
     page.name = "Demo";
     page.columns = 4;
     page.rows = 3;
-    page.style = {{"camera.azimuth", 155.0}, {"camera.elevation", 22.0}, {"camera.distance", 3.2}};
+    page.style = {{"camera.azimuth", 155.0}, {"camera.elevation", 22.0}, {"camera.distance", 3.7}};
     addDensities(workbook);
     addDifferences(workbook);
     addTimeSteps(workbook);

@@ -17,6 +17,7 @@ struct ApiSettings {
     std::string version = "0.1.0";
     std::string basePath;                                      ///< normalised
     std::uint64_t uploadLimitBytes = std::uint64_t{64} << 30U; ///< of one upload
+    std::function<void()> openDemo; ///< writes the demo and opens its workbook; empty: there is none
 };
 
 /// Outlives every route.

@@ -39,6 +39,7 @@ Response info(const ApiContext& context) {
                                        {"cells", sheet::kMaxCells},
                                        {"sheets", sheet::kMaxSheets},
                                        {"image_pixels_per_side", 8192}}},
+                                     {"demo", static_cast<bool>(context.settings.openDemo)},
                                      {"roots", rootsJson(context.engine)}});
 }
 
@@ -49,7 +50,7 @@ void addInfoRoutes(Router& router, const ApiContext& context) {
                 .pattern = "/api/v1",
                 .handler = [&context](Request&) { return info(context); },
                 .summary = "Version, device and why it was chosen, budgets, limits, roots",
-                .answerDoc = "{name, version, device, budgets, limits, roots}"});
+                .answerDoc = "{name, version, device, budgets, limits, demo, roots}"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/keys",

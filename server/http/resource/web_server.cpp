@@ -19,7 +19,7 @@ struct WebServer::Parts {
                                              tiles,
                                              hub,
                                              {options.version, normalisedBasePath(options.basePath),
-                                              options.uploadLimitBytes},
+                                              options.uploadLimitBytes, options.openDemo},
                                              policy.cookieName(),
                                              policy.token(),
                                              [this] { return server->counters(); },

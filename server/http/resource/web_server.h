@@ -5,6 +5,7 @@
 #include "http/net/server_options.h"
 #include "http/resource/api_context.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,7 @@ struct WebServerOptions {
     std::string basePath; ///< "" or "/name…"
     std::string version;
     std::uint64_t uploadLimitBytes = std::uint64_t{64} << 30U;
+    std::function<void()> openDemo; ///< what the page's "look at the demo" does; empty: it offers none
 };
 
 class WebServer {

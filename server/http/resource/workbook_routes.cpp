@@ -128,6 +128,18 @@ void addWorkbookRoutes(Router& router, const ApiContext& context) {
     };
     step("/api/v1/undo", "Takes back the last edit", &engine::Engine::undo);
     step("/api/v1/redo", "Brings back what undo took", &engine::Engine::redo);
+    if (!context.settings.openDemo) return;
+    router.add({.method = "POST",
+                .pattern = "/api/v1/demo",
+                .handler =
+                    [&context](Request&) {
+                        context.settings.openDemo();
+                        return jsonAnswer(undoState(context.engine));
+                    },
+                .summary = "Writes the demo's files and opens its workbook (one undo step)",
+                .bodyBudgetBytes = 1024, // nothing is read from it; some clients send {}
+                .pool = Pool::Render,
+                .answerDoc = "{version, canUndo, canRedo}"});
 }
 
 } // namespace voxsheet::http
