@@ -7,8 +7,10 @@ ScalarType pyramidType(ScalarType storedType) noexcept {
     case ScalarType::U8:
     case ScalarType::I8:
     case ScalarType::U16:
-    case ScalarType::I16: return storedType;
-    default: return ScalarType::F32;
+    case ScalarType::I16:
+        return storedType;
+    default:
+        return ScalarType::F32;
     }
 }
 

@@ -34,9 +34,9 @@ struct FieldStep {
 };
 
 struct FieldMeta {
-    std::string name;     ///< unique within the dataset
-    std::string quantity; ///< e.g. "electron density"; may be empty
-    std::string unit;     ///< of values, e.g. "eV", "e/Å^3"; may be empty
+    std::string name;                        ///< unique within the dataset
+    std::string quantity;                    ///< e.g. "electron density"; may be empty
+    std::string unit;                        ///< of values, e.g. "eV", "e/Å^3"; may be empty
     ScalarType storedType = ScalarType::F32; ///< of the level-0 array; levels >= 1: pyramidType(storedType)
     double valueScale = 1.0;                 ///< value = valueScale * stored + valueOffset
     double valueOffset = 0.0;

@@ -23,7 +23,8 @@ void validateGrid(const Grid& grid) {
     const glm::dmat3 axes(grid.worldFromIndex);
     const double scale = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
     if (!(std::abs(glm::determinant(axes)) > 1e-9 * scale) || scale == 0.0)
-        throw InvalidInput("grid geometry", "the three axes do not span space (zero spacing or parallel directions)");
+        throw InvalidInput("grid geometry",
+                           "the three axes do not span space (zero spacing or parallel directions)");
 }
 
 IndexBox boxIndex(const Grid& grid) {
@@ -49,7 +50,9 @@ glm::dmat4 textureFromIndex(const Grid& grid) {
     return glm::translate(glm::dmat4(1.0), 0.5 * scale) * glm::scale(glm::dmat4(1.0), scale);
 }
 
-glm::dmat4 worldFromTexture(const Grid& grid) { return grid.worldFromIndex * glm::inverse(textureFromIndex(grid)); }
+glm::dmat4 worldFromTexture(const Grid& grid) {
+    return grid.worldFromIndex * glm::inverse(textureFromIndex(grid));
+}
 
 glm::dvec3 centreWorld(const Grid& grid) {
     const auto box = boxIndex(grid);
@@ -81,13 +84,15 @@ double meanVoxelEdgeWorld(const Grid& grid) {
 
 glm::ivec3 levelDims(const glm::ivec3& dims, int level) {
     glm::ivec3 result = dims;
-    for (int step = 0; step < level; ++step) result = (result + 1) / 2;
+    for (int step = 0; step < level; ++step)
+        result = (result + 1) / 2;
     return result;
 }
 
 int levelCount(const glm::ivec3& dims) {
     int count = 1;
-    for (auto size = dims; size.x > 16 || size.y > 16 || size.z > 16; size = (size + 1) / 2) ++count;
+    for (auto size = dims; size.x > 16 || size.y > 16 || size.z > 16; size = (size + 1) / 2)
+        ++count;
     return count;
 }
 

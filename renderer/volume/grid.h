@@ -1,10 +1,13 @@
-// A regular grid of samples in the world: positions, box, and the texture frame shared by all levels of detail.
+// A regular grid of samples in the world: positions, box, and the texture frame shared by all levels of
+// detail.
 //
 // Index frame: sample (i, j, k) sits at index position (i, j, k), i the fastest axis in memory.
 // World frame: right-handed; worldFromIndex is affine and may be anisotropic, rotated or sheared (crystals).
-// Texture frame: t = (p + 1/2) / dims, per axis, for an index position p. It is the same for every level: level k has
-//   levelDims(k) = ceil(levelDims(k-1) / 2) texels over [0, 1], each the volume-weighted mean of the level below (for even
-//   sizes: of 2x2x2 children), so each sits at the mean position of its children, and periodic axes wrap at every level.
+// Texture frame: t = (p + 1/2) / dims, per axis, for an index position p. It is the same for every level:
+// level k has
+//   levelDims(k) = ceil(levelDims(k-1) / 2) texels over [0, 1], each the volume-weighted mean of the level
+//   below (for even sizes: of 2x2x2 children), so each sits at the mean position of its children, and
+//   periodic axes wrap at every level.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -20,7 +23,8 @@ struct Grid {
     glm::ivec3 dims{1};           ///< samples per axis at level 0, each >= 1
     glm::dmat4 worldFromIndex{1}; ///< affine, determinant not 0
     Centring centring = Centring::Point;
-    glm::bvec3 periodic{false}; ///< per axis: wraps, and the box is [0, dims] in the index frame (with the closing slab)
+    glm::bvec3 periodic{
+        false}; ///< per axis: wraps, and the box is [0, dims] in the index frame (with the closing slab)
 
     bool operator==(const Grid&) const = default;
 };
@@ -30,7 +34,8 @@ struct IndexBox {
     glm::dvec3 high;
 };
 
-/// Throws InvalidInput if a dimension is < 1, the product exceeds 2^40, or worldFromIndex is not finite and invertible.
+/// Throws InvalidInput if a dimension is < 1, the product exceeds 2^40, or worldFromIndex is not finite and
+/// invertible.
 void validateGrid(const Grid& grid);
 
 /// The drawn box in the index frame. An axis with a single sample is one voxel thick.

@@ -18,18 +18,29 @@ enum class ScalarType { U8, I8, U16, I16, U32, I32, U64, I64, F32, F64 };
 }
 
 /// Calls `visitor.template operator()<T>()` with the C++ type of `type`.
-template <typename Visitor> decltype(auto) visitScalar(ScalarType type, Visitor&& visitor) {
+template <typename Visitor>
+decltype(auto) visitScalar(ScalarType type, Visitor&& visitor) {
     switch (type) {
-    case ScalarType::U8: return visitor.template operator()<unsigned char>();
-    case ScalarType::I8: return visitor.template operator()<signed char>();
-    case ScalarType::U16: return visitor.template operator()<unsigned short>();
-    case ScalarType::I16: return visitor.template operator()<short>();
-    case ScalarType::U32: return visitor.template operator()<unsigned int>();
-    case ScalarType::I32: return visitor.template operator()<int>();
-    case ScalarType::U64: return visitor.template operator()<unsigned long>();
-    case ScalarType::I64: return visitor.template operator()<long>();
-    case ScalarType::F32: return visitor.template operator()<float>();
-    case ScalarType::F64: break;
+    case ScalarType::U8:
+        return visitor.template operator()<unsigned char>();
+    case ScalarType::I8:
+        return visitor.template operator()<signed char>();
+    case ScalarType::U16:
+        return visitor.template operator()<unsigned short>();
+    case ScalarType::I16:
+        return visitor.template operator()<short>();
+    case ScalarType::U32:
+        return visitor.template operator()<unsigned int>();
+    case ScalarType::I32:
+        return visitor.template operator()<int>();
+    case ScalarType::U64:
+        return visitor.template operator()<unsigned long>();
+    case ScalarType::I64:
+        return visitor.template operator()<long>();
+    case ScalarType::F32:
+        return visitor.template operator()<float>();
+    case ScalarType::F64:
+        break;
     }
     return visitor.template operator()<double>();
 }

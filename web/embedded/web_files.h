@@ -1,4 +1,5 @@
-// The page's files, built from web/ and embedded into the binary. With VOXSHEET_WEB=OFF there is one file, a page that says so.
+// The page's files, built from web/ and embedded into the binary. With VOXSHEET_WEB=OFF there is one file, a
+// page that says so.
 #pragma once
 
 #include "base/embedded.h"
