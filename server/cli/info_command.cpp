@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,7 @@ nlohmann::json describeFile(engine::Engine& engine, const std::string& file) {
     const auto name = engine.importDatasets({request}).at(0);
     engine.waitIdle(24 * 3600.0);
     const auto dataset = engine.dataset(name);
-    if (dataset.failure) throw InvalidInput(file, dataset.failure->message);
+    if (dataset.failure) throw std::runtime_error(dataset.failure->message);
     auto info = engine::describeDataset(*dataset.meta);
     info["file"] = file;
     return info;
@@ -74,7 +75,7 @@ int runInfo(const InfoArguments& arguments) {
             if (!arguments.json) printText(file, info);
             all.push_back(std::move(info));
         } catch (const std::exception& error) {
-            code = reportFailure(error);
+            code = reportFailure(std::string(error.what()));
         }
     }
     // One object for one file; a list for several.

@@ -96,6 +96,8 @@ int runServe(const ServeArguments& arguments) {
     const auto signals = blockStopSignals();
     const auto options = engineOptions(arguments.engine);
     engine::Engine engine(options);
+    if (const auto* device = engine.device())
+        logInfo("drawing on " + device->renderer + " (" + device->eglPlatform + "): " + device->reason);
     stream::TileService tiles(engine);
     stream::StreamHub hub(engine, tiles);
     auto web = webOptions(arguments);
