@@ -116,7 +116,7 @@ TEST(Formula, AnyTextIsAFormulaOrAnError) {
         "A1",    "B2", "+",   "-",       "*",       "/", "(", ")",    "abs(", ",",        ":", "!", "'",
         "#REF!", "1e", "2.5", "Sheet1!", "'My s'!", " ", "é", "\xff", "%",    "ZZZ99999", ".", "_x"};
     int formulas = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 6000; ++i) {
         std::string text = "=";
         for (auto n = random() % 12; n > 0; --n)
             text += parts[random() % parts.size()];
@@ -132,7 +132,7 @@ TEST(Formula, AnyTextIsAFormulaOrAnError) {
             EXPECT_FALSE(std::get<CellError>(parsed).sentence.empty());
         }
     }
-    EXPECT_GT(formulas, 200) << "the generator makes both";
+    EXPECT_GT(formulas, 60) << "the generator makes both";
 }
 
 TEST(Formula, ReferencesAreRewrittenInPlace) {

@@ -127,7 +127,7 @@ TEST(WorkbookJson, DamagedTextIsRefusedOrReadsAsAValidWorkbook) {
     std::mt19937 random(5);
     int refused = 0;
     int read = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 800; ++i) {
         std::string text = good;
         for (auto n = 1 + random() % 3; n > 0; --n) {
             const std::size_t at = random() % text.size();
@@ -160,8 +160,8 @@ TEST(WorkbookJson, DamagedTextIsRefusedOrReadsAsAValidWorkbook) {
             ++refused;
         }
     }
-    EXPECT_GT(refused, 1000);
-    EXPECT_GT(read, 50);
+    EXPECT_GT(refused, 250);
+    EXPECT_GT(read, 10);
 }
 
 TEST(WorkbookJson, MembersOfTheWrongTypeAreRefusedEverywhere) {
