@@ -28,13 +28,33 @@ struct BackgroundDistance {
     }
 };
 
+/// Shares of the samples that are clearly under and over a value.
+struct Sides {
+    double below = 0.0;
+    double above = 0.0;
+
+    /// A side with less than a quarter of the other's samples is a flag or noise, not a feature.
+    [[nodiscard]] bool belowCounts() const { return below >= 0.25 * above; }
+    [[nodiscard]] bool aboveCounts() const { return above >= 0.25 * below; }
+};
+
+Sides sidesOf(const ValueSummary& summary, double centre, double margin) {
+    Sides sides;
+    for (const double value : summary.quantiles) {
+        sides.below += value < centre - margin ? 1.0 : 0.0;
+        sides.above += value > centre + margin ? 1.0 : 0.0;
+    }
+    return sides;
+}
+
 BackgroundDistance distanceFrom(const ValueSummary& summary, const TransferFunction& function,
                                 bool signedData) {
     BackgroundDistance distance;
     const double background = signedData ? 0.0 : backgroundValue(summary);
     distance.centre = std::clamp(transferPosition(function, background), 0.0, 1.0);
-    distance.below = distance.centre > 0.35;
-    distance.above = distance.centre < 0.65;
+    const Sides sides = sidesOf(summary, background, 0.05 * (function.high - function.low));
+    distance.below = distance.centre > 0.0 && (signedData || sides.belowCounts());
+    distance.above = distance.centre < 1.0 && (signedData || sides.aboveCounts());
     return distance;
 }
 
@@ -199,8 +219,14 @@ ValueWindow defaultWindow(const ValueSummary& summary) {
     const double low = summary.quantile(0.002);
     const double high = summary.quantile(0.998);
     const bool robust = high > low && high - low < 0.6 * (summary.max - summary.min);
-    const ValueWindow window = robust ? ValueWindow{low, high} : fullWindow(summary.min, summary.max);
-    return opensDiverging(summary) ? symmetricWindow(window) : window;
+    ValueWindow window = robust ? ValueWindow{low, high} : fullWindow(summary.min, summary.max);
+    if (opensDiverging(summary)) return symmetricWindow(window);
+    // A side of the background that holds no feature does not stretch the window.
+    const double background = backgroundValue(summary);
+    const Sides sides = sidesOf(summary, background, 0.05 * (window.high - window.low));
+    if (!sides.belowCounts()) window.low = std::max(window.low, 2.0 * background - window.high);
+    if (!sides.aboveCounts()) window.high = std::min(window.high, 2.0 * background - window.low);
+    return window;
 }
 
 ValueWindow fullWindow(double min, double max) { return widened(min, max); }

@@ -9,13 +9,13 @@
 //      zero, and the samples do not pile up at one end (air of a CT at -1000 HU). Such data (differences,
 //      potentials, wave functions) open with a diverging map whose neutral colour is zero. Plain integers
 //      (scans, counts) never do.
-//   3. Window: from the smallest to the largest value, unless a few extreme samples (nuclei, metal) would
-//      press all others into less than 60 % of the range; then the 0.2 % and 99.8 % quantiles. Signed:
-//      symmetric about zero.
-//   4. Opacity: zero at the background; it begins where Otsu's threshold splits the distances from the
-//      background, and grows with the power 1.5 to the 99 % quantile. Its height makes the mean optical
-//      depth through the box kTargetDepth, so that neither a filled box turns solid nor a sparse one
-//      vanishes.
+//   3. Window: smallest to largest value, unless a few extreme samples (nuclei, metal) would press all others
+//      into less than 60 % of the range: then the 0.2 % and 99.8 % quantiles. A side of the background with
+//      few samples (a flag) is kept no wider than the other. Signed: symmetric about zero.
+//   4. Opacity: zero at the background, and on a side of it that holds less than a quarter of the other
+//      side's samples; it begins where Otsu's threshold splits the distances from the background, and grows
+//      with the power 1.5 to the 99 % quantile. Its height makes the mean optical depth through the box
+//      kTargetDepth: neither does a filled box turn solid nor a sparse one vanish.
 #pragma once
 
 #include "volume/transfer_function.h"

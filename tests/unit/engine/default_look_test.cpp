@@ -137,6 +137,22 @@ TEST(DefaultLook, ABrightBackgroundIsTransparentToo) {
     EXPECT_GT(opacityAt(opacity, transferPosition(function, -60)), 0.0);
 }
 
+TEST(DefaultLook, AFlagFarBelowTheBackgroundNeitherHidesNorFlattensTheRest) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> noise(0.0F, 60.0F);
+    std::vector<float> values;
+    for (int i = 0; i < 20000; ++i)
+        values.push_back(i < 300 ? -15000.0F : (i < 14000 ? 0.0F : 1000.0F) + noise(random));
+    ValueSummary head = summaryOf(std::move(values));
+    head.integers = true;
+    const TransferFunction function = over(defaultWindow(head));
+    EXPECT_GT(function.low, -2000);
+    const auto opacity = defaultOpacity(head, function, false, 100);
+    expectWellFormed(opacity);
+    EXPECT_GT(opacityAt(opacity, transferPosition(function, 1000)), 0.0);
+    EXPECT_EQ(opacityAt(opacity, 0.0), 0.0);
+}
+
 TEST(DefaultLook, SignedDataAreTransparentAtZeroAndOpaqueAtBothEnds) {
     const ValueSummary summary = difference(2.0, 33.0);
     const auto opacity = defaultOpacity(summary, over(defaultWindow(summary)), true, 80);
