@@ -76,6 +76,24 @@ sheet::Workbook workbookOf(const EngineArguments& arguments, const sheet::KeyTab
     return sheet::apply(workbook, add, keys);
 }
 
+/// Folders that a workbook's sources lie in, read leniently: opening it says what is wrong with it.
+std::vector<fs::path> sourceFolders(const fs::path& workbook) {
+    std::vector<fs::path> folders;
+    const auto document = nlohmann::json::parse(readText(workbook), nullptr, false);
+    const auto datasets =
+        document.is_object() ? document.value("datasets", nlohmann::json::object()) : nlohmann::json();
+    if (!datasets.is_object()) return folders;
+    for (const auto& dataset : datasets) {
+        const auto files =
+            dataset.is_object() ? dataset.value("files", nlohmann::json::array()) : nlohmann::json();
+        for (const auto& file : files)
+            if (file.is_string())
+                folders.push_back(
+                    (workbook.parent_path() / file.get<std::string>()).lexically_normal().parent_path());
+    }
+    return folders;
+}
+
 } // namespace
 
 void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
@@ -147,8 +165,13 @@ engine::EngineOptions engineOptions(const EngineArguments& arguments) {
     if (arguments.roots.empty())
         for (const auto& source : arguments.sources)
             addRoot(fs::absolute(source).lexically_normal().parent_path());
-    if (arguments.sources.size() == 1 && isWorkbook(arguments.sources.front()))
+    if (arguments.sources.size() == 1 && isWorkbook(arguments.sources.front())) {
         options.workbookFile = fs::absolute(arguments.sources.front());
+        // Whoever names a workbook on the command line means its data too, wherever that lies.
+        if (arguments.roots.empty())
+            for (const auto& folder : sourceFolders(options.workbookFile))
+                addRoot(folder);
+    }
     return options;
 }
 
@@ -171,10 +194,11 @@ void openSources(engine::Engine& engine, const EngineArguments& arguments) {
                            "name one workbook, or only data files");
     if (books == 1) {
         const auto document = sheet::parseBoundedJson(readText(first), first);
-        engine.setWorkbookJson(document, fs::absolute(first).parent_path());
+        engine.setWorkbookJson(document, fs::absolute(first).parent_path(), engine::DocumentOrigin::File);
         return;
     }
-    engine.setWorkbookJson(sheet::workbookToJson(workbookOf(arguments, engine.keys())), fs::current_path());
+    engine.setWorkbookJson(sheet::workbookToJson(workbookOf(arguments, engine.keys())), fs::current_path(),
+                           engine::DocumentOrigin::File);
 }
 
 } // namespace voxsheet::cli

@@ -104,7 +104,8 @@ int runServe(const ServeArguments& arguments) {
     // The upload folder is one that sources may always lie in.
     web.openDemo = [&engine, demoFolder = options.uploadDir / "demo"] {
         writeDemo(demoFolder);
-        engine.setWorkbookJson(nlohmann::json::parse(demoWorkbookText()), demoFolder);
+        engine.setWorkbookJson(nlohmann::json::parse(demoWorkbookText()), demoFolder,
+                               engine::DocumentOrigin::File);
     };
     http::WebServer server(web, engine, tiles, hub);
     openSources(engine, arguments.engine);

@@ -7,15 +7,17 @@ namespace voxsheet::engine {
 
 namespace {
 
-import::ImporterSettings settingsFrom(const EngineOptions& options){import::ImporterSettings settings;
-settings.executable = options.importer;
-settings.storeFolder = options.storeDir;
-settings.storeLimitBytes = options.storeLimitBytes;
-settings.memoryLimitBytes = options.memoryBudgetBytes;
-return settings;
-} // namespace
+// Spelt out in full: clang-format takes a line that begins with `import` for one of a C++20 module.
+voxsheet::import::ImporterSettings settingsFrom(const EngineOptions& options) {
+    voxsheet::import::ImporterSettings settings;
+    settings.executable = options.importer;
+    settings.storeFolder = options.storeDir;
+    settings.storeLimitBytes = options.storeLimitBytes;
+    settings.memoryLimitBytes = options.memoryBudgetBytes;
+    return settings;
+}
 
-} // namespace voxsheet::engine
+} // namespace
 
 Importer childImporter(const EngineOptions& options) {
     return [settings = settingsFrom(options)](const std::vector<std::filesystem::path>& files,

@@ -9,8 +9,6 @@ namespace voxsheet::engine {
 
 namespace {
 
-constexpr std::uint64_t kDefaultStoreLimit = 20ULL << 30U;
-
 int importWorkers(const EngineOptions& options) {
     const int cores =
         options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
@@ -44,8 +42,7 @@ DatasetKeeper::DatasetKeeper(const EngineOptions& options, Importer importer,
                              std::function<void(bool, const std::string&)> changed)
     : options_(options), importer_(std::move(importer)), changed_(std::move(changed)),
       roots_(allowedFolders(options)),
-      store_(std::make_shared<const store::VolumeStore>(
-          options.storeDir, options.storeLimitBytes != 0 ? options.storeLimitBytes : kDefaultStoreLimit)),
+      store_(std::make_shared<const store::VolumeStore>(options.storeDir, options.storeLimitBytes)),
       volumes_(std::make_shared<store::StoreVolumeProvider>(store_)),
       imports_(importWorkers(options),
                [this](const std::string& id, bool isSettled) { settled(isSettled, id); }),

@@ -116,8 +116,8 @@ bool Engine::canUndo() const { return implementation_->workbook.canUndo(); }
 bool Engine::canRedo() const { return implementation_->workbook.canRedo(); }
 nlohmann::json Engine::workbookJson() const { return implementation_->workbook.document(); }
 
-void Engine::setWorkbookJson(const nlohmann::json& document, const fs::path& folder) {
-    implementation_->workbook.replace(document, folder);
+void Engine::setWorkbookJson(const nlohmann::json& document, const fs::path& folder, DocumentOrigin origin) {
+    implementation_->workbook.replace(document, folder, origin);
 }
 
 void Engine::saveWorkbook(const fs::path& file) const { implementation_->workbook.save(file); }

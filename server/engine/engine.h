@@ -141,6 +141,9 @@ struct SheetImage {
     bool final = true;
 };
 
+/// Where a whole document comes from: one that stands in files already needs no recovery file.
+enum class DocumentOrigin { File, Edit };
+
 enum class ChangeKind { Workbook, Datasets };
 using ChangeListener = std::function<void(ChangeKind, std::uint64_t version)>;
 
@@ -186,7 +189,8 @@ public:
     [[nodiscard]] nlohmann::json workbookJson() const;
     /// Replaces the document (one undo step) and imports its sources. `folder`: what relative source paths
     /// start from.
-    void setWorkbookJson(const nlohmann::json& document, const std::filesystem::path& folder);
+    void setWorkbookJson(const nlohmann::json& document, const std::filesystem::path& folder,
+                         DocumentOrigin origin = DocumentOrigin::Edit);
     /// Atomic: temporary file, fsync, rename. Throws IoError; the old file stays whole.
     void saveWorkbook(const std::filesystem::path& file) const;
     /// Saves a recovery file when there are edits that saveWorkbook has not written. Never over a named

@@ -27,6 +27,7 @@ EngineOptions completed(EngineOptions options) {
         const auto pages = static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_PHYS_PAGES)));
         options.memoryBudgetBytes = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4;
     }
+    if (options.storeLimitBytes == 0) options.storeLimitBytes = 20ULL << 30U;
     if (options.threads <= 0) {
         cpu_set_t cores;
         options.threads = ::sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;

@@ -108,13 +108,13 @@ nlohmann::json WorkbookKeeper::document() const {
     return sheet::workbookToJson(withRelativeSources(*history_.current(), folder_));
 }
 
-void WorkbookKeeper::replace(const nlohmann::json& document, const fs::path& folder) {
+void WorkbookKeeper::replace(const nlohmann::json& document, const fs::path& folder, DocumentOrigin origin) {
     const sheet::Workbook parsed = sheet::workbookFromJson(document, history_.keys());
     auto workbook = std::make_shared<const sheet::Workbook>(withAbsoluteSources(parsed, folder));
     std::unique_lock lock(mutex_);
     history_.apply(sheet::ReplaceWorkbook{std::move(workbook)}, {});
     folder_ = fs::absolute(folder);
-    saved_ = history_.current();
+    if (origin == DocumentOrigin::File) saved_ = history_.current();
     changed(lock);
 }
 

@@ -32,7 +32,7 @@ public:
 
     /// Source paths relative to the workbook's folder.
     [[nodiscard]] nlohmann::json document() const;
-    void replace(const nlohmann::json& document, const std::filesystem::path& folder);
+    void replace(const nlohmann::json& document, const std::filesystem::path& folder, DocumentOrigin origin);
     void save(const std::filesystem::path& file);
     std::optional<std::filesystem::path> saveRecovery();
 

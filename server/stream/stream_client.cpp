@@ -79,6 +79,11 @@ StreamStatistics StreamClient::statistics() const {
     return statistics_;
 }
 
+std::optional<FrameTiming> StreamClient::lastFrame() const {
+    const std::lock_guard lock(mutex_);
+    return lastFrame_;
+}
+
 void StreamClient::push(const nlohmann::json& header, std::string_view payload) {
     outbox_.push_back(frameMessage(header, payload));
 }
@@ -286,7 +291,7 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
     };
     for (const auto& tile : plan.notices)
         notice(tile);
-    std::size_t tiles = 0;
+    FrameTiming timing{Clock::now(), frameMs, 0, 0, !plan.interactive};
     for (const auto& pending : plan.tiles) {
         if (!pending.image) {
             notice(pending.prepared);
@@ -304,12 +309,14 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         json["final"] = image.final;
         push(json, image.bytes);
         shown_[pending.tile.cell] = Shown{pending.prepared.identity, {}, image.final};
-        ++tiles;
+        ++timing.tiles;
+        timing.level = std::max(timing.level, image.level);
     }
     emitStatus(plan, view.id, frameMs);
     const std::lock_guard lock(mutex_);
     ++statistics_.frames;
-    statistics_.tiles += tiles;
+    statistics_.tiles += timing.tiles;
+    if (timing.tiles > 0) lastFrame_ = timing;
 }
 
 void StreamClient::emitStatus(const Plan& plan, std::uint64_t viewId, double frameMs) {

@@ -25,6 +25,8 @@ public:
     [[nodiscard]] std::optional<std::string> next();
     [[nodiscard]] ClientView view() const;
     [[nodiscard]] StreamStatistics statistics() const;
+    [[nodiscard]] const std::string& sheet() const { return sheet_; }
+    [[nodiscard]] std::optional<FrameTiming> lastFrame() const;
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -80,6 +82,7 @@ private:
     std::uint64_t acknowledged_ = 0;
     Clock::time_point lastChange_ = Clock::now();
     StreamStatistics statistics_;
+    std::optional<FrameTiming> lastFrame_;
 
     // Of the writer thread alone.
     std::deque<std::string> outbox_;

@@ -101,4 +101,14 @@ StreamStatistics StreamHub::statistics() const {
     return sum;
 }
 
+std::optional<FrameTiming> StreamHub::lastFrame(const std::string& sheet) const {
+    const std::lock_guard lock(mutex_);
+    std::optional<FrameTiming> newest;
+    for (const auto& [id, client] : clients_) {
+        const auto timing = client->sheet() == sheet ? client->lastFrame() : std::nullopt;
+        if (timing && (!newest || timing->when > newest->when)) newest = timing;
+    }
+    return newest;
+}
+
 } // namespace voxsheet::stream

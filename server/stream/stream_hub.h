@@ -45,6 +45,15 @@ struct StreamStatistics {
     std::uint64_t bytes = 0;
 };
 
+/// The last frame that a page of some sheet was sent.
+struct FrameTiming {
+    std::chrono::steady_clock::time_point when;
+    double frameMs = 0.0;  ///< render, read back and encode
+    std::size_t tiles = 0; ///< drawn in it
+    int level = 0;         ///< coarsest level of detail among them
+    bool final = false;
+};
+
 class StreamClient;
 
 /// Thread-safe. The thread that writes a stream's bytes calls next() in a loop; rendering and encoding of
@@ -70,6 +79,8 @@ public:
     /// Makes every next() return at once, for ever.
     void stop();
     [[nodiscard]] StreamStatistics statistics() const;
+    /// Of the open streams of this sheet; nothing before the first frame.
+    [[nodiscard]] std::optional<FrameTiming> lastFrame(const std::string& sheet) const;
 
 private:
     [[nodiscard]] std::shared_ptr<StreamClient> find(const std::string& id) const;

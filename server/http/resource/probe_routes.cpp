@@ -89,9 +89,11 @@ Response timings(const ApiContext& context, const Request& request) {
     });
     const auto residency = context.engine.residency();
     const auto streams = context.hub.statistics();
+    const auto last = context.hub.lastFrame(sheet); // null before a page has drawn something
     return jsonAnswer(nlohmann::json{{"n", shown},
-                                     {"frame_ms", nullptr},
-                                     {"level", 0},
+                                     {"frame_ms", last ? nlohmann::json(last->frameMs) : nlohmann::json()},
+                                     {"frame_tiles", last ? nlohmann::json(last->tiles) : nlohmann::json()},
+                                     {"level", last ? nlohmann::json(last->level) : nlohmann::json()},
                                      {"r", nullptr},
                                      {"resident_bytes", residency.residentBytes},
                                      {"budget_bytes", residency.budgetBytes},

@@ -239,6 +239,18 @@ TEST_F(EngineTest, ASavedWorkbookOpensAgainEvenWhenMovedWithItsData) {
     EXPECT_EQ(engine.workbookJson()["datasets"].size(), 1U);
 }
 
+TEST_F(EngineTest, ADocumentThatIsInNoFileIsKeptForRecovery) {
+    Engine engine(options());
+    const nlohmann::json document{
+        {"voxsheet", 1}, {"title", "sent over the network"}, {"sheets", {{{"name", "Mine"}, {"columns", 1}, {"rows", 1}}}}};
+    engine.setWorkbookJson(document, data, DocumentOrigin::File);
+    EXPECT_FALSE(engine.saveRecovery()) << "it stands in its file";
+    auto edited = document;
+    edited["title"] = "edited by a script";
+    engine.setWorkbookJson(edited, data);
+    EXPECT_TRUE(engine.saveRecovery());
+}
+
 TEST_F(EngineTest, ABrokenDocumentChangesNothing) {
     Engine engine(options());
     const auto version = engine.version();
