@@ -241,8 +241,9 @@ TEST_F(EngineTest, ASavedWorkbookOpensAgainEvenWhenMovedWithItsData) {
 
 TEST_F(EngineTest, ADocumentThatIsInNoFileIsKeptForRecovery) {
     Engine engine(options());
-    const nlohmann::json document{
-        {"voxsheet", 1}, {"title", "sent over the network"}, {"sheets", {{{"name", "Mine"}, {"columns", 1}, {"rows", 1}}}}};
+    const nlohmann::json document{{"voxsheet", 1},
+                                  {"title", "sent over the network"},
+                                  {"sheets", {{{"name", "Mine"}, {"columns", 1}, {"rows", 1}}}}};
     engine.setWorkbookJson(document, data, DocumentOrigin::File);
     EXPECT_FALSE(engine.saveRecovery()) << "it stands in its file";
     auto edited = document;
