@@ -2,6 +2,9 @@
 // process.
 #pragma once
 
+#include "stages/isosurface_spec.h"
+#include "stages/shading_spec.h"
+#include "volume/clip.h"
 #include "volume/transfer_function.h"
 
 #include <glm/glm.hpp>
@@ -11,7 +14,13 @@
 
 namespace voxsheet {
 
-enum class Technique { Slices, Raycast, Mip };
+enum class Technique { Slices, Raycast, Mip, Surface, Isosurface };
+
+/// Texels of volumes that are stored as 32-bit floats.
+enum class FloatTexels {
+    Full, ///< 32-bit floats
+    Half  ///< 16-bit floats of the value's position over its range: half the memory, 11 significant bits
+};
 
 enum class Projection { Perspective, Orthographic };
 
@@ -36,6 +45,10 @@ struct TileSpec {
     double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
+    ClipSpec clip;                                ///< holds for every technique
+    ShadingSpec shading;                          ///< not for Mip
+    IsosurfaceSpec isosurface;                    ///< Isosurface only
+    FloatTexels floatTexels = FloatTexels::Full;
 };
 
 } // namespace voxsheet

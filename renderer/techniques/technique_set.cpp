@@ -82,6 +82,9 @@ void TechniqueSet::draw(const TileSpec& tile, const ResidentVolume& volume,
     case Technique::Slices:
         implementation_->slicing.draw(stages, request);
         break;
+    case Technique::Surface:
+    case Technique::Isosurface:
+        throw Unsupported("this technique", "it is not part of this build");
     }
     stages.context.checkErrors("drawing a tile");
 }

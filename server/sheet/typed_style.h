@@ -10,10 +10,11 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace voxsheet::sheet {
 
-enum class Technique { Slices, Raycast, Mip };
+enum class Technique { Slices, Raycast, Mip, Surface, Isosurface };
 enum class Projection { Perspective, Orthographic };
 enum class RangeMode { Auto, Own, Shared, Fixed, Percentile, Symmetric };
 /// Level of detail of a picture at rest: full = level 0, half = level 1, quarter = level 2, eighth = level 3
@@ -59,6 +60,86 @@ struct RangeStyle {
     bool operator==(const RangeStyle&) const = default;
 };
 
+/// Lengths and positions of clip planes, box and object.
+enum class ClipUnits {
+    Fraction, ///< of the cell's own box, so that volumes of different size and place can be linked
+    World
+};
+enum class ClipMode { Probe, Clip };
+enum class ClipRepresentation { Distance, Binary };
+
+/// With `fraction`: a plane's position runs from 0 at the box's first corner along the normal to 1 at its
+/// last; the box's ends are fractions along the volume's own axes; the clip object's unit is half the
+/// shortest edge of the box and its origin the box's centre. With `world`: world units, the box along the
+/// world axes, the object in its own coordinates.
+struct ClipStyle {
+    struct Plane {
+        glm::dvec3 normal{1.0, 0.0, 0.0}; ///< along the world axes, not zero, of any length
+        double position = 0.5;            ///< what lies beyond it, along the normal, is kept
+        bool operator==(const Plane&) const = default;
+    };
+    struct Box {
+        glm::dvec3 low{0.0};
+        glm::dvec3 high{1.0};
+        bool operator==(const Box&) const = default;
+    };
+    /// Scale first, then rotation about x, y, z in this order, then translation.
+    struct Transform {
+        glm::dvec3 translation{0.0};
+        glm::dvec3 rotationDegrees{0.0};
+        glm::dvec3 scale{1.0};
+        bool operator==(const Transform&) const = default;
+    };
+
+    ClipUnits units = ClipUnits::Fraction;
+    std::vector<Plane> planes; ///< at most eight
+    std::optional<Box> box;
+    /// Empty: none. A shape (sphere, ellipsoid, box, cylinder, torus), a dataset that was made from a mesh,
+    /// or a comparison of a cell or dataset with a number ("B1 > 0.4", "'scan 2' <= -100").
+    std::string shape;
+    ClipMode mode = ClipMode::Clip;
+    ClipRepresentation representation = ClipRepresentation::Distance;
+    Transform transform;
+    bool operator==(const ClipStyle&) const = default;
+};
+
+enum class IsosurfaceMethod { Refined, AlphaTest };
+
+struct IsosurfaceStyle {
+    std::vector<double> values;         ///< 1 to 8; empty: chosen from the data
+    bool mirror = false;                ///< every value v also as -v
+    std::vector<Colour> colours;        ///< by surface, the last one repeats; empty: the transfer function's
+    std::vector<double> opacities{1.0}; ///< by surface, the last one repeats
+    std::string colourBy;               ///< empty: none; a cell ("B1") or a dataset's name
+    bool caps = false;
+    IsosurfaceMethod method = IsosurfaceMethod::Refined;
+    bool operator==(const IsosurfaceStyle&) const = default;
+};
+
+enum class ShadingModel { Auto, None, Phong }; ///< Auto: Phong for isosurfaces, none otherwise
+enum class GradientSource { Auto, Texture, OnTheFly };
+enum class LightFrame { View, World };
+
+struct ShadingStyle {
+    ShadingModel model = ShadingModel::Auto;
+    GradientSource gradient = GradientSource::Auto;
+    double ambient = 0.25;
+    double diffuse = 0.75;
+    double specular = 0.25;
+    double shininess = 24.0;
+    bool operator==(const ShadingStyle&) const = default;
+};
+
+struct LightStyle {
+    double head = 1.0;                  ///< intensity of the head light
+    std::vector<glm::dvec3> directions; ///< towards each light, not zero, of any length; at most four
+    LightFrame frame = LightFrame::View;
+    double intensity = 1.0; ///< of each directional light
+    bool operator==(const LightStyle&) const = default;
+};
+
+enum class TextureFormat { Auto, Half };
+
 /// A field by name or by index.
 using FieldChoice = std::variant<std::int64_t, std::string>;
 
@@ -71,6 +152,14 @@ struct TypedStyle {
     Quality quality = Quality::Full;
     Colour background;
     Annotations annotations = Annotations::All;
+    ClipStyle clip;
+    IsosurfaceStyle isosurface;
+    ShadingStyle shading;
+    LightStyle light;
+    TextureFormat textureFormat = TextureFormat::Auto;
+    /// Picking takes the first sample at least this opaque; not set: where the accumulated opacity passes one
+    /// half.
+    std::optional<double> probeOpacity;
     FieldChoice field{std::int64_t{0}};
     int timeStep = 0;
     bool operator==(const TypedStyle&) const = default;

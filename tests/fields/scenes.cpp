@@ -39,9 +39,13 @@ const char* nameOf(Technique technique) {
     case Technique::Raycast:
         return "raycast";
     case Technique::Mip:
+        return "mip";
+    case Technique::Surface:
+        return "surface";
+    case Technique::Isosurface:
         break;
     }
-    return "mip";
+    return "isosurface";
 }
 
 const char* nameOf(Projection projection) {
