@@ -234,6 +234,12 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     case sheet::Technique::Mip:
         spec.technique = Technique::Mip;
         break;
+    case sheet::Technique::Surface:
+        spec.technique = Technique::Surface;
+        break;
+    case sheet::Technique::Isosurface:
+        spec.technique = Technique::Isosurface;
+        break;
     }
     spec.camera = resolveCamera(style.camera, meta.grid, sizePixels);
     spec.transfer = std::move(table);
