@@ -63,20 +63,20 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, PixelFor
     checkSize(tile.sizePixels);
     const std::size_t bytes = static_cast<std::size_t>(tile.sizePixels.x) *
                               static_cast<std::size_t>(tile.sizePixels.y) * pixelBytes(format);
-    const VolumeLease lease = residency_.acquire({tile.dataset, tile.field, tile.step, tile.level});
+    const TileVolumes volumes = techniques_.acquire(residency_, tile);
     const gpu::Texture& target = targets_.acquire(tile.sizePixels);
 
     auto slot = takeSlot(bytes);
     slot->pixels = {};
     slot->pixels.size = tile.sizePixels;
     slot->pixels.level = tile.level;
-    slot->pixels.uploadMs = lease.uploadMs;
-    slot->pixels.readMs = lease.readMs;
+    slot->pixels.uploadMs = volumes.uploadMs();
+    slot->pixels.readMs = volumes.readMs();
     slot->format = format;
     slot->bytes = bytes;
     slot->begun = Clock::now();
     slot->timer.begin();
-    techniques_.draw(tile, lease.volume(), target);
+    techniques_.draw(tile, volumes, target);
     slot->timer.end();
     resolver_.resolve(target, tile.background, format, slot->packed);
     slot->readback.start(slot->packed, bytes);

@@ -148,6 +148,11 @@ void Program::set(const char* name, const glm::mat3& value) const {
 void Program::set(const char* name, const glm::mat4& value) const {
     glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
+void Program::set(const char* name, std::span<const glm::vec4> values) const {
+    if (values.empty()) return;
+    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()),
+                        glm::value_ptr(values.front()));
+}
 
 void storageBarrier() {
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,7 @@ public:
     void set(const char* name, const glm::ivec4& value) const;
     void set(const char* name, const glm::mat3& value) const;
     void set(const char* name, const glm::mat4& value) const;
+    void set(const char* name, std::span<const glm::vec4> values) const; ///< an array, from its first element
 
     [[nodiscard]] GLuint id() const { return name_.id(); }
 

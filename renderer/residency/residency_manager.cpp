@@ -43,33 +43,61 @@ ResidencyManager::ResidencyManager(gpu::Context& context, std::shared_ptr<const 
 
 ResidencyManager::~ResidencyManager() = default;
 
-VolumeLease ResidencyManager::acquire(const VolumeKey& key) {
+std::shared_ptr<VolumeLease::Entry> ResidencyManager::find(const EntryKey& key) {
     const auto known = entries_.find(key);
-    if (known != entries_.end()) {
-        known->second->lastUse = ++clock_;
-        return VolumeLease(known->second);
-    }
-    return load(key);
+    if (known == entries_.end()) return nullptr;
+    known->second->lastUse = ++clock_;
+    return known->second;
 }
 
-VolumeLease ResidencyManager::load(const VolumeKey& key) {
-    VolumeUpload upload(*provider_, key, !context_.workarounds().r8AsR16);
+VolumeLease ResidencyManager::acquire(const VolumeKey& key, FloatTexels floatTexels) {
+    const Kind kind = floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples;
+    if (auto known = find({key, kind})) return VolumeLease(std::move(known));
+    return load(key, floatTexels);
+}
+
+VolumeLease ResidencyManager::load(const VolumeKey& key, FloatTexels floatTexels) {
+    VolumeUpload upload(*provider_, key, !context_.workarounds().r8AsR16, floatTexels);
     makeRoom(upload.bytes());
     auto entry = std::make_shared<Entry>();
-    entry->texture.emplace(createTexture(upload));
+    entry->texture.emplace(
+        createTexture([&] { return upload.createTexture(context_); }, !upload.exceedsDevice(context_)));
     upload.fill(*entry->texture);
     entry->volume = upload.volume();
+    state_.uploadedBytes += entry->texture->bytes();
+    auto lease =
+        keep({key, floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples}, std::move(entry));
+    lease.uploadMs = upload.uploadMs();
+    lease.readMs = upload.readMs();
+    return lease;
+}
+
+VolumeLease ResidencyManager::acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
+                                               const DerivedTextureBuilder& build) {
+    const EntryKey entryKey{key, floatTexels == FloatTexels::Full ? Kind::Gradients : Kind::HalfGradients};
+    if (auto known = find(entryKey)) return VolumeLease(std::move(known));
+    const VolumeLease source = acquire(key, floatTexels);
+    const auto& volume = source.volume();
+    makeRoom(static_cast<std::uint64_t>(sampleCount(volume.dims)) * gpu::texelBytes(GL_RGBA16F));
+    auto entry = std::make_shared<Entry>();
+    entry->texture.emplace(
+        createTexture([&] { return gpu::Texture(context_, GL_TEXTURE_3D, GL_RGBA16F, volume.dims); }, true));
+    setVolumeSampling(*entry->texture, volume.meta->grid);
+    build(volume, *entry->texture);
+    entry->volume = volume;
+    auto lease = keep(entryKey, std::move(entry));
+    lease.uploadMs = source.uploadMs;
+    lease.readMs = source.readMs;
+    return lease;
+}
+
+VolumeLease ResidencyManager::keep(const EntryKey& key, std::shared_ptr<Entry> entry) {
     entry->volume.texture = &*entry->texture;
     entry->lastUse = ++clock_;
     entries_.emplace(key, entry);
     state_.residentBytes += entry->texture->bytes();
-    state_.uploadedBytes += entry->texture->bytes();
     ++state_.textures;
-
-    VolumeLease lease(std::move(entry));
-    lease.uploadMs = upload.uploadMs();
-    lease.readMs = upload.readMs();
-    return lease;
+    return VolumeLease(std::move(entry));
 }
 
 void ResidencyManager::makeRoom(std::uint64_t bytes) {
@@ -90,13 +118,13 @@ void ResidencyManager::makeRoom(std::uint64_t bytes) {
     }
 }
 
-gpu::Texture ResidencyManager::createTexture(const VolumeUpload& upload) {
+gpu::Texture ResidencyManager::createTexture(const std::function<gpu::Texture()>& create, bool roomHelps) {
     while (true) {
         try {
-            return upload.createTexture(context_);
+            return create();
         } catch (const LimitExceeded&) {
             // The device has less memory than the budget hopes for: give back what we can before giving up.
-            if (upload.exceedsDevice(context_) || !evictOne()) throw;
+            if (!roomHelps || !evictOne()) throw;
         }
     }
 }
@@ -119,11 +147,13 @@ ResidencyManager::Entries::iterator ResidencyManager::drop(Entries::iterator ent
     return entries_.erase(entry);
 }
 
-bool ResidencyManager::isResident(const VolumeKey& key) const { return entries_.count(key) != 0; }
+bool ResidencyManager::isResident(const VolumeKey& key, FloatTexels floatTexels) const {
+    return entries_.count({key, floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples}) != 0;
+}
 
 void ResidencyManager::forget(const std::string& dataset) {
     for (auto entry = entries_.begin(); entry != entries_.end();) {
-        entry = entry->first.dataset == dataset ? drop(entry) : std::next(entry);
+        entry = entry->first.first.dataset == dataset ? drop(entry) : std::next(entry);
     }
 }
 

@@ -1,14 +1,16 @@
-// Which volumes are 3D textures on the GPU: one texture per VolumeKey however many cells show it, within a
-// byte budget, least recently used goes first.
+// Which volumes and gradients are 3D textures on the GPU: one texture per VolumeKey and kind however many
+// cells show it, within a byte budget, least recently used goes first.
 #pragma once
 
 #include "gpu/texture.h"
 #include "residency/residency_state.h"
+#include "volume/texture_encoding.h"
 #include "volume/volume_provider.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -53,6 +55,9 @@ private:
     std::shared_ptr<Entry> entry_;
 };
 
+/// Fills the RGBA16F texture of a volume's size with what was derived from the volume's own.
+using DerivedTextureBuilder = std::function<void(const ResidentVolume& volume, gpu::Texture& rgba16f)>;
+
 /// Belongs to the thread of its Context.
 class ResidencyManager {
 public:
@@ -66,9 +71,15 @@ public:
     /// as the budget asks. Throws what the provider throws; NotFound for a field, step or level that the
     /// dataset does not have; LimitExceeded when the volume alone, or with the leased ones, breaks the budget
     /// or the device's limits.
-    [[nodiscard]] VolumeLease acquire(const VolumeKey& key);
+    [[nodiscard]] VolumeLease acquire(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full);
 
-    [[nodiscard]] bool isResident(const VolumeKey& key) const;
+    /// The gradient texture of a volume: the lease's volume() is as acquire() gives it but for `texture`.
+    /// Built by `build` when it is not resident; the volume itself is then made resident too. Throws as
+    /// acquire.
+    [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
+                                               const DerivedTextureBuilder& build);
+
+    [[nodiscard]] bool isResident(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full) const;
 
     /// Drops every texture of a dataset. One under lease is freed when its lease ends, and is not handed out
     /// again.
@@ -78,11 +89,15 @@ public:
 
 private:
     using Entry = VolumeLease::Entry;
-    using Entries = std::map<VolumeKey, std::shared_ptr<Entry>>;
+    enum class Kind { Samples, HalfSamples, Gradients, HalfGradients };
+    using EntryKey = std::pair<VolumeKey, Kind>;
+    using Entries = std::map<EntryKey, std::shared_ptr<Entry>>;
 
-    [[nodiscard]] VolumeLease load(const VolumeKey& key);
+    [[nodiscard]] std::shared_ptr<Entry> find(const EntryKey& key);
+    [[nodiscard]] VolumeLease load(const VolumeKey& key, FloatTexels floatTexels);
+    [[nodiscard]] VolumeLease keep(const EntryKey& key, std::shared_ptr<Entry> entry);
     void makeRoom(std::uint64_t bytes);
-    [[nodiscard]] gpu::Texture createTexture(const VolumeUpload& upload);
+    [[nodiscard]] gpu::Texture createTexture(const std::function<gpu::Texture()>& create, bool roomHelps);
     bool evictOne();
     Entries::iterator drop(Entries::iterator entry);
 

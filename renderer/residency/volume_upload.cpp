@@ -35,6 +35,8 @@ GLenum internalFormat(TexelFormat format) {
         return GL_R8;
     case TexelFormat::R16:
         return GL_R16;
+    case TexelFormat::R16F:
+        return GL_R16F;
     case TexelFormat::R32F:
         break;
     }
@@ -47,6 +49,8 @@ GLenum componentType(TexelFormat format) {
         return GL_UNSIGNED_BYTE;
     case TexelFormat::R16:
         return GL_UNSIGNED_SHORT;
+    case TexelFormat::R16F:
+        return GL_HALF_FLOAT;
     case TexelFormat::R32F:
         break;
     }
@@ -57,7 +61,13 @@ GLenum wrapOf(bool periodic) { return periodic ? GL_REPEAT : GL_CLAMP_TO_EDGE; }
 
 } // namespace
 
-VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering)
+void setVolumeSampling(gpu::Texture& texture, const Grid& grid) {
+    texture.setFilter(GL_LINEAR);
+    texture.setWrap(wrapOf(grid.periodic.x), wrapOf(grid.periodic.y), wrapOf(grid.periodic.z));
+}
+
+VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering,
+                           FloatTexels floatTexels)
     : provider_(provider), key_(std::move(key)) {
     volume_.meta = provider.describe(key_.dataset);
     validateVolumeKey(*volume_.meta, key_);
@@ -68,8 +78,8 @@ VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool e
     // Statistics are in values; a negative slope swaps the ends.
     const double atMin = (values.min - field.valueOffset) / field.valueScale;
     const double atMax = (values.max - field.valueOffset) / field.valueScale;
-    encoding_ =
-        chooseTextureEncoding(type_, std::min(atMin, atMax), std::max(atMin, atMax), exactR8Filtering);
+    encoding_ = chooseTextureEncoding(type_, std::min(atMin, atMax), std::max(atMin, atMax), exactR8Filtering,
+                                      floatTexels);
     volume_.valueScale = field.valueScale * encoding_.storedScale;
     volume_.valueOffset = field.valueScale * encoding_.storedOffset + field.valueOffset;
     volume_.field = key_.field;
@@ -88,9 +98,7 @@ bool VolumeUpload::exceedsDevice(const gpu::Context& context) const {
 
 gpu::Texture VolumeUpload::createTexture(gpu::Context& context) const {
     gpu::Texture texture(context, GL_TEXTURE_3D, internalFormat(encoding_.format), volume_.dims);
-    const glm::bvec3 periodic = volume_.meta->grid.periodic;
-    texture.setFilter(GL_LINEAR);
-    texture.setWrap(wrapOf(periodic.x), wrapOf(periodic.y), wrapOf(periodic.z));
+    setVolumeSampling(texture, volume_.meta->grid);
     return texture;
 }
 

@@ -6,10 +6,14 @@
 
 namespace voxsheet {
 
+/// Linear filter; REPEAT on periodic axes, else CLAMP_TO_EDGE.
+void setVolumeSampling(gpu::Texture& texture, const Grid& grid);
+
 class VolumeUpload {
 public:
     /// Looks the volume up and plans its texture; reads no samples yet. Throws NotFound for an unknown key.
-    VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering);
+    VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering,
+                 FloatTexels floatTexels);
 
     [[nodiscard]] std::uint64_t bytes() const; ///< of the texture
     [[nodiscard]] bool

@@ -14,6 +14,7 @@ struct Ray {
     vec3 origin;
     vec3 direction;
     float radiiPerDepth; // world length of a unit of depth along this ray, in bounding radii
+    vec3 toEye;          // unit direction from any of its points to the eye, in the view frame
 };
 
 // `pixel` in pixels from the lower left corner of the picture; centres at halves.
@@ -23,5 +24,6 @@ Ray cameraRay(vec2 pixel) {
     ray.origin = rayOrigin + q.x * rayOriginX + q.y * rayOriginY;
     ray.direction = rayDirection + q.x * rayDirectionX + q.y * rayDirectionY;
     ray.radiiPerDepth = sqrt(1.0 + rayLengthPerspective * dot(q, q));
+    ray.toEye = vec3(-rayLengthPerspective * q, 1.0) / ray.radiiPerDepth;
     return ray;
 }

@@ -59,15 +59,16 @@ ClassificationMapping classificationMapping(const TransferTable& table, double v
 ClassificationStage::ClassificationStage(gpu::Context& context)
     : context_(context), textures_(kCachedTables) {}
 
-gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, const ResidentVolume& volume) {
+gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, const ResidentVolume& volume,
+                                                bool filterFloats) {
     const auto format = volume.texture->internalFormat();
     const bool isFloat = format == GL_R32F || format == GL_R16F;
     return {{"VALUE_SCALE", std::to_string(static_cast<int>(table.scale))},
-            {"MAY_BE_NAN", isFloat ? "1" : "0"}};
+            {"MAY_BE_NAN", isFloat ? "1" : "0"},
+            {"SHADER_FILTER", filterFloats && format == GL_R32F ? "1" : "0"}};
 }
 
-void ClassificationStage::bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
-                               const ResidentVolume& volume) {
+void ClassificationStage::bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit) {
     const auto* texture = textures_.find(
         [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
     if (texture == nullptr) {
@@ -77,8 +78,14 @@ void ClassificationStage::bind(const gpu::Program& program, const std::shared_pt
         fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
         texture = &textures_.insert(table, std::move(fresh));
     }
+    texture->bind(unit);
+}
+
+void ClassificationStage::bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
+                               const ResidentVolume& volume) {
     volume.texture->bind(volumeUnit);
-    texture->bind(tableUnit);
+    bindTable(table, tableUnit);
+    program.set("filterPeriodic", glm::vec3(volume.meta->grid.periodic));
     const auto mapping = classificationMapping(*table, volume.valueScale, volume.valueOffset);
     program.set("mappedFromTexel", glm::vec2(mapping.mappedFromTexel));
     program.set("entryFromMapped", glm::vec2(mapping.entryFromMapped));

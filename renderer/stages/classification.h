@@ -36,10 +36,15 @@ public:
     explicit ClassificationStage(gpu::Context& context);
 
     /// The defines that a program with this table and volume needs.
-    [[nodiscard]] static gpu::ShaderDefines defines(const TransferTable& table, const ResidentVolume& volume);
+    /// \param filterFloats  the shader interpolates 32-bit floats itself
+    [[nodiscard]] static gpu::ShaderDefines defines(const TransferTable& table, const ResidentVolume& volume,
+                                                    bool filterFloats);
     /// Binds volume and table and sets the uniforms.
     void bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
               const ResidentVolume& volume);
+
+    /// Binds a table alone.
+    void bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit);
 
 private:
     gpu::Context& context_;

@@ -37,15 +37,29 @@ void EmptySpaceStage::bindOccupied(const gpu::Program& program,
     });
     if (cells == nullptr) {
         const auto marks = occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table);
-        cells = &textures_.insert({volume.minMax, table}, cellTexture(context_, volume.dims, marks, GL_R8UI,
+        cells =
+            &textures_.insert({volume.minMax, table, {}}, cellTexture(context_, volume.dims, marks, GL_R8UI,
                                                                       GL_RED_INTEGER, GL_UNSIGNED_BYTE));
     }
     bind(program, volume, *cells);
 }
 
+void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
+                                  const ResidentVolume& volume) {
+    const auto* cells = textures_.find(
+        [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values == values; });
+    if (cells == nullptr) {
+        const auto marks = crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values);
+        cells = &textures_.insert(
+            {volume.minMax, nullptr, values},
+            cellTexture(context_, volume.dims, marks, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE));
+    }
+    bind(program, volume, *cells);
+}
+
 void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
-    const auto* cells =
-        textures_.find([&](const Key& key) { return key.minMax == volume.minMax && !key.table; });
+    const auto* cells = textures_.find(
+        [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values.empty(); });
     if (cells == nullptr) {
         const float sign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
         auto largest = largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign);
@@ -55,7 +69,7 @@ void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVol
             const double texel = (double(value) - double(sign) * volume.valueOffset) / scale;
             value = std::nextafter(static_cast<float>(texel + 1e-6 * std::abs(texel)), HUGE_VALF);
         }
-        cells = &textures_.insert({volume.minMax, nullptr},
+        cells = &textures_.insert({volume.minMax, nullptr, {}},
                                   cellTexture(context_, volume.dims, largest, GL_R32F, GL_RED, GL_FLOAT));
     }
     bind(program, volume, *cells);

@@ -9,6 +9,7 @@
 #include "volume/transfer_function.h"
 
 #include <memory>
+#include <vector>
 
 namespace voxsheet {
 
@@ -25,6 +26,9 @@ public:
     /// For compositing: cells are > 0 where the table can show something.
     void bindOccupied(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
                       const ResidentVolume& volume);
+    /// For isosurfaces: cells are > 0 where one of the values may be crossed.
+    void bindCrossed(const gpu::Program& program, const std::vector<double>& values,
+                     const ResidentVolume& volume);
     /// For maximum projection: cells hold the largest texel (or the largest negated one, where values fall
     /// with texels).
     void bindLargest(const gpu::Program& program, const ResidentVolume& volume);
@@ -32,7 +36,9 @@ public:
 private:
     struct Key {
         std::shared_ptr<const MinMaxGrid> minMax;
-        std::shared_ptr<const TransferTable> table; ///< null: largest texels
+        std::shared_ptr<const TransferTable>
+            table; ///< null: largest texels, or cells where `values` are crossed
+        std::vector<double> values;
     };
     void bind(const gpu::Program& program, const ResidentVolume& volume, const gpu::Texture& cells) const;
 

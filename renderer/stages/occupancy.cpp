@@ -112,6 +112,21 @@ std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3
     return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
 }
 
+std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
+                                       const glm::bvec3& periodic, const std::vector<double>& values) {
+    // A brick's range bounds every interpolant inside: what is crossed in it lies between its own low and
+    // high.
+    std::vector<std::uint8_t> bricks(grid.ranges.size());
+    std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
+                   [&](const MinMaxGrid::Range& range) {
+                       const bool crossed = std::any_of(values.begin(), values.end(), [&](double value) {
+                           return double(range.low) <= value && value <= double(range.high);
+                       });
+                       return crossed ? std::uint8_t{1} : std::uint8_t{0};
+                   });
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+}
+
 std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims, const glm::bvec3& periodic,
                                   float sign) {
     std::vector<float> bricks(grid.ranges.size());

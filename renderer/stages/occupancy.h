@@ -28,6 +28,11 @@ struct CellLayout {
 [[nodiscard]] std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                                       const glm::bvec3& periodic, const TransferTable& table);
 
+/// 1 where one of `values` may be crossed within reach, else 0; x fastest. Conservative.
+[[nodiscard]] std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
+                                                     const glm::bvec3& periodic,
+                                                     const std::vector<double>& values);
+
 /// Largest value within reach (sign = 1), or largest negated value (sign = -1); -infinity where all is NaN.
 [[nodiscard]] std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                                 const glm::bvec3& periodic, float sign);

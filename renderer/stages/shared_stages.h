@@ -2,29 +2,47 @@
 #pragma once
 
 #include "stages/classification.h"
+#include "stages/clip_stage.h"
+#include "stages/colour_volume.h"
 #include "stages/empty_space.h"
 #include "stages/program_cache.h"
 #include "stages/ray_frame.h"
+#include "stages/shading_stage.h"
 
 namespace voxsheet {
+
+/// The resident textures of one picture; null: the picture has no use for it.
+struct DrawVolumes {
+    const ResidentVolume& volume;
+    const ResidentVolume* gradients = nullptr;
+    const ResidentVolume* clipObject = nullptr;
+    const ResidentVolume* colours = nullptr;
+};
+
+/// One picture to draw: what TechniqueSet::draw was given, and its rays.
+struct DrawRequest {
+    const TileSpec& tile;
+    const DrawVolumes& volumes;
+    const RayFrame& frame;
+    const gpu::Texture& target;
+};
 
 struct SharedStages {
     explicit SharedStages(gpu::Context& gpuContext)
         : context(gpuContext), programs(gpuContext), classification(gpuContext), emptySpace(gpuContext) {}
+
+    /// Of classification, clipping, shading and SKIP_EMPTY.
+    [[nodiscard]] gpu::ShaderDefines definesFor(const DrawRequest& request) const;
+    /// Binds and sets what classification, clipping, shading and rays need.
+    void bindFor(const gpu::Program& program, const DrawRequest& request);
 
     gpu::Context& context;
     ProgramCache programs;
     ClassificationStage classification;
     EmptySpaceStage emptySpace;
     bool skipEmptySpace = true;
-};
-
-/// One picture to draw: what TechniqueSet::draw was given, and its rays.
-struct DrawRequest {
-    const TileSpec& tile;
-    const ResidentVolume& volume;
-    const RayFrame& frame;
-    const gpu::Texture& target;
+    /// For drivers that do not filter 32-bit float textures.
+    bool filterFloatsInShader = false;
 };
 
 } // namespace voxsheet

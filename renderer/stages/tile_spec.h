@@ -5,6 +5,7 @@
 #include "stages/isosurface_spec.h"
 #include "stages/shading_spec.h"
 #include "volume/clip.h"
+#include "volume/texture_encoding.h"
 #include "volume/transfer_function.h"
 
 #include <glm/glm.hpp>
@@ -15,12 +16,6 @@
 namespace voxsheet {
 
 enum class Technique { Slices, Raycast, Mip, Surface, Isosurface };
-
-/// Texels of volumes that are stored as 32-bit floats.
-enum class FloatTexels {
-    Full, ///< 32-bit floats
-    Half  ///< 16-bit floats of the value's position over its range: half the memory, 11 significant bits
-};
 
 enum class Projection { Perspective, Orthographic };
 

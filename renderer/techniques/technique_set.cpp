@@ -3,11 +3,14 @@
 #include "base/errors.h"
 #include "gpu/context.h"
 #include "stages/shared_stages.h"
+#include "techniques/isosurface/isosurface.h"
 #include "techniques/mip/mip.h"
 #include "techniques/raycast/raycast.h"
 #include "techniques/slicing/slicing.h"
+#include "techniques/surface/surface.h"
 
 #include <cmath>
+#include <optional>
 
 namespace voxsheet {
 namespace {
@@ -35,7 +38,7 @@ void validateCamera(const CameraSpec& camera) {
             .withField("camera.distance");
 }
 
-void validate(const TileSpec& tile, const gpu::Texture& target) {
+void validate(const TileSpec& tile) {
     const auto size = tile.sizePixels;
     if (size.x < 1 || size.y < 1 || size.x > kMaxPixels || size.y > kMaxPixels)
         throw InvalidInput("picture size", "it is outside 1 to 8192 pixels").withField("width");
@@ -46,6 +49,13 @@ void validate(const TileSpec& tile, const gpu::Texture& target) {
     if (!isPositive(tile.sampleDistanceVoxels) || tile.sampleDistanceVoxels > kMaxSampleDistance)
         throw InvalidInput("sample distance", "it is outside (0, 64] voxels").withField("sampling.distance");
     validateCamera(tile.camera);
+    validateClip(tile.clip);
+    validateShading(tile.shading);
+    validateIsosurface(tile.isosurface);
+}
+
+void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
+    const auto size = tile.sizePixels;
     if (target.target() != GL_TEXTURE_2D || target.internalFormat() != GL_RGBA32F ||
         target.size() != glm::ivec3(size, 1))
         throw InternalError("target of a tile", "it is not a 2D RGBA32F texture of the tile's size");
@@ -55,10 +65,11 @@ void validate(const TileSpec& tile, const gpu::Texture& target) {
 
 class TechniqueSet::Implementation {
 public:
-    explicit Implementation(gpu::Context& context) : stages(context), slicing(context) {}
+    explicit Implementation(gpu::Context& context) : stages(context), slicing(context), surface(context) {}
 
     SharedStages stages;
     SlicingTechnique slicing;
+    SurfaceTechnique surface;
 };
 
 TechniqueSet::TechniqueSet(gpu::Context& context)
@@ -66,12 +77,47 @@ TechniqueSet::TechniqueSet(gpu::Context& context)
 
 TechniqueSet::~TechniqueSet() = default;
 
-void TechniqueSet::draw(const TileSpec& tile, const ResidentVolume& volume,
+namespace {
+
+/// Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
+bool wantsGradientTexture(const TileSpec& tile) {
+    const bool usesGradients = tile.technique == Technique::Slices || tile.technique == Technique::Raycast ||
+                               tile.technique == Technique::Isosurface;
+    return usesGradients && tile.shading.enabled && tile.shading.gradient == GradientSource::Texture;
+}
+
+const ResidentVolume* volumeOf(const std::optional<VolumeLease>& lease) {
+    return lease ? &lease->volume() : nullptr;
+}
+
+} // namespace
+
+TileVolumes TechniqueSet::acquire(ResidencyManager& residency, const TileSpec& tile) {
+    validate(tile);
+    const VolumeKey key{tile.dataset, tile.field, tile.step, tile.level};
+    TileVolumes volumes{residency.acquire(key, tile.floatTexels), {}, {}, {}};
+    if (wantsGradientTexture(tile))
+        volumes.gradients = residency.acquireGradients(
+            key, tile.floatTexels, [this](const ResidentVolume& volume, gpu::Texture& texture) {
+                ShadingStage::buildGradients(implementation_->stages.programs, volume, texture);
+            });
+    if (tile.clip.object) volumes.clipObject = residency.acquire({tile.clip.object->dataset, 0, 0, 0});
+    if (tile.technique == Technique::Isosurface && tile.isosurface.colouredBy) {
+        const auto& colours = *tile.isosurface.colouredBy;
+        volumes.colours = residency.acquire({colours.dataset, colours.field, colours.step, colours.level});
+    }
+    return volumes;
+}
+
+void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
                         const gpu::Texture& targetRgba32f) {
-    validate(tile, targetRgba32f);
+    validate(tile);
+    validateTarget(tile, targetRgba32f);
     auto& stages = implementation_->stages;
-    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volume.meta->grid);
-    const DrawRequest request{tile, volume, frame, targetRgba32f};
+    const DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
+                              volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
+    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid);
+    const DrawRequest request{tile, volumes, frame, targetRgba32f};
     switch (tile.technique) {
     case Technique::Raycast:
         drawRaycast(stages, request);
@@ -83,12 +129,18 @@ void TechniqueSet::draw(const TileSpec& tile, const ResidentVolume& volume,
         implementation_->slicing.draw(stages, request);
         break;
     case Technique::Surface:
+        implementation_->surface.draw(stages, request);
+        break;
     case Technique::Isosurface:
-        throw Unsupported("this technique", "it is not part of this build");
+        drawIsosurface(stages, request);
+        break;
     }
     stages.context.checkErrors("drawing a tile");
 }
 
 void TechniqueSet::setEmptySpaceSkipping(bool enabled) { implementation_->stages.skipEmptySpace = enabled; }
+void TechniqueSet::setShaderFiltering(bool enabled) {
+    implementation_->stages.filterFloatsInShader = enabled;
+}
 
 } // namespace voxsheet

@@ -3,6 +3,7 @@
 
 #include "residency/residency_manager.h"
 #include "stages/tile_spec.h"
+#include "techniques/tile_volumes.h"
 
 #include <memory>
 
@@ -22,15 +23,23 @@ public:
     TechniqueSet(const TechniqueSet&) = delete;
     TechniqueSet& operator=(const TechniqueSet&) = delete;
 
-    /// Draws `tile` from `volume` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row 0
-    /// at the bottom of the picture. Every texel is written: colour premultiplied by alpha, no background.
+    /// Makes resident what the tile is drawn from; gradient textures are built here. Throws InvalidInput
+    /// (with field) if the tile's numbers are out of the ranges documented in TileSpec and its parts, and as
+    /// ResidencyManager::acquire.
+    [[nodiscard]] TileVolumes acquire(ResidencyManager& residency, const TileSpec& tile);
+
+    /// Draws `tile` from `volumes` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row
+    /// 0 at the bottom of the picture. Every texel is written: colour premultiplied by alpha, no background.
     /// The volume's level is drawn, whatever tile.level says. The call returns when the commands are queued
     /// (llvmpipe: when compute work is done). Throws InvalidInput (with field) if the tile's numbers are out
     /// of the ranges documented in TileSpec, GpuError if a program or a texture fails.
-    void draw(const TileSpec& tile, const ResidentVolume& volume, const gpu::Texture& targetRgba32f);
+    void draw(const TileSpec& tile, const TileVolumes& volumes, const gpu::Texture& targetRgba32f);
 
     /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
     void setEmptySpaceSkipping(bool enabled);
+    /// 32-bit float volumes are interpolated by the shader itself, for drivers that do not filter them; off
+    /// by default.
+    void setShaderFiltering(bool enabled);
 
 private:
     class Implementation;

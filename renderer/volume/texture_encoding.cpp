@@ -8,6 +8,8 @@
 #include <limits>
 #include <type_traits>
 
+#include <glm/gtc/packing.hpp>
+
 namespace voxsheet {
 
 namespace {
@@ -65,7 +67,11 @@ void encodeFloat(const TextureEncoding& encoding, const std::byte* stored, std::
         } else {
             offset = static_cast<double>(sample) - encoding.storedOffset;
         }
-        storeTexel(texels + 4 * i, static_cast<float>(offset * factor));
+        const auto texel = static_cast<float>(offset * factor);
+        if (encoding.format == TexelFormat::R16F)
+            storeTexel(texels + 2 * i, glm::packHalf1x16(texel));
+        else
+            storeTexel(texels + 4 * i, texel);
     }
 }
 
@@ -78,7 +84,7 @@ struct EncodeRange {
     template <typename T>
     void operator()() const {
         if constexpr (std::is_integral_v<T> && sizeof(T) <= 2) {
-            if (encoding.format != TexelFormat::R32F) {
+            if (encoding.format == TexelFormat::R8 || encoding.format == TexelFormat::R16) {
                 encodeNormalised<T>(encoding.format, stored, texels, n);
                 return;
             }
@@ -94,6 +100,7 @@ std::size_t texelFormatBytes(TexelFormat format) noexcept {
     case TexelFormat::R8:
         return 1;
     case TexelFormat::R16:
+    case TexelFormat::R16F:
         return 2;
     case TexelFormat::R32F:
         break;
@@ -102,7 +109,7 @@ std::size_t texelFormatBytes(TexelFormat format) noexcept {
 }
 
 TextureEncoding chooseTextureEncoding(ScalarType type, double storedMin, double storedMax,
-                                      bool exactR8Filtering) {
+                                      bool exactR8Filtering, FloatTexels floatTexels) {
     const TexelFormat narrow = exactR8Filtering ? TexelFormat::R8 : TexelFormat::R16;
     switch (type) {
     case ScalarType::U8:
@@ -114,12 +121,16 @@ TextureEncoding chooseTextureEncoding(ScalarType type, double storedMin, double 
     case ScalarType::I16:
         return {TexelFormat::R16, 65535.0, -32768.0};
     case ScalarType::F32:
-        return {TexelFormat::R32F, 1.0, 0.0};
+        if (floatTexels == FloatTexels::Full) return {TexelFormat::R32F, 1.0, 0.0};
+        break;
     default:
         break;
     }
     const double extent = storedMax - storedMin;
     const bool usable = extent > 0.0 && extent <= std::numeric_limits<double>::max();
+    if (floatTexels == FloatTexels::Half)
+        return {TexelFormat::R16F, usable ? 0.5 * extent : 1.0,
+                usable || extent == 0.0 ? storedMin + 0.5 * extent : 0.0};
     return {TexelFormat::R32F, usable ? extent : 1.0, usable || extent == 0.0 ? storedMin : 0.0};
 }
 

@@ -18,13 +18,13 @@ TilePainter::~TilePainter() { context_.makeCurrent(); }
 
 fields::Picture TilePainter::draw(const TileSpec& tile) {
     context_.makeCurrent();
-    const auto lease = residency_.acquire({tile.dataset, tile.field, tile.step, tile.level});
+    const auto volumes = techniques_.acquire(residency_, tile);
     gpu::Texture target(context_, GL_TEXTURE_2D, GL_RGBA32F, {tile.sizePixels, 1});
     std::vector<float> floats(static_cast<std::size_t>(tile.sizePixels.x) *
                               static_cast<std::size_t>(tile.sizePixels.y) * 4);
     glFinish();
     const auto start = std::chrono::steady_clock::now();
-    techniques_.draw(tile, lease.volume(), target);
+    techniques_.draw(tile, volumes, target);
     glGetTextureImage(target.id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(floats.size() * sizeof(float)),
                       floats.data());
     lastMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -1,11 +1,12 @@
 // The largest value along one ray per pixel, then classified (techniques/mip/mip.h).
 //   CHUNK_SAMPLES  samples that one look-up of the cells' largest values answers for
 //   SKIP_EMPTY     1: stretches that cannot exceed the largest sample so far are left out
-#include "stages/box.glsl"
+#include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
 #include "stages/picture_pixel.glsl"
+#include "stages/clip_object.glsl"
 
 layout(binding = 2) uniform sampler3D largestInCells;
 
@@ -22,13 +23,27 @@ struct Path {
     vec3 stride; // from sample to sample
     int whole;
     int chunks;
+    float firstDepth; // of sample 0
+    float spacing;    // of depth
+#if CLIP_OBJECT
+    ClipRay clip;
+#endif
 };
 
 float largestIn(Path path, int chunk, float largest) {
     int begin = chunk * CHUNK_SAMPLES;
+#if CLIP_OBJECT
+    float firstDepth = path.firstDepth + float(begin) * path.spacing;
+    int verdict = clipVerdict(path.clip, firstDepth, firstDepth + float(CHUNK_SAMPLES) * path.spacing);
+    if (verdict < 0) return largest;
+#endif
     for (int k = 0; k < CHUNK_SAMPLES; ++k) {
         float texel = texelSign * texelAt(path.first + float(begin + k) * path.stride);
-        if (begin + k < path.whole && texel > largest) largest = texel; // false for NaN
+        bool counts = begin + k < path.whole && texel > largest; // false for NaN
+#if CLIP_OBJECT
+        if (counts && verdict == 0) counts = keptMeasure(path.clip, firstDepth + float(k) * path.spacing) >= 0.0;
+#endif
+        if (counts) largest = texel;
     }
     return largest;
 }
@@ -45,12 +60,22 @@ float largestTexel(Ray ray, vec2 span) {
     path.whole = int(stretches);
     path.chunks = (path.whole + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
     path.stride = spacing * ray.direction;
-    path.first = ray.origin + (span.x + 0.5 * spacing) * ray.direction;
+    path.firstDepth = span.x + 0.5 * spacing;
+    path.spacing = spacing;
+    path.first = ray.origin + path.firstDepth * ray.direction;
+#if CLIP_OBJECT
+    path.clip = clipRayOf(ray);
+#endif
 
     float rest = stretches - float(path.whole);
     float largest = kNone;
-    float texel = texelSign * texelAt(path.first + (float(path.whole) + 0.5 * (rest - 1.0)) * path.stride);
-    if (texel > largest) largest = texel;
+    float restSample = float(path.whole) + 0.5 * (rest - 1.0);
+    float texel = texelSign * texelAt(path.first + restSample * path.stride);
+    bool counts = texel > largest;
+#if CLIP_OBJECT
+    if (counts) counts = keptMeasure(path.clip, path.firstDepth + restSample * spacing) >= 0.0;
+#endif
+    if (counts) largest = texel;
 #if SKIP_EMPTY
     // The most promising chunk first: most others then cannot exceed what it holds.
     int promising = 0;
@@ -80,8 +105,8 @@ void main() {
     ivec2 pixel = picturePixel();
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Ray ray = cameraRay(vec2(pixel) + 0.5);
-    vec2 span = boxSpan(ray);
-    float largest = span.x < span.y ? largestTexel(ray, span) : kNone;
+    KeptSpan span = keptSpan(ray);
+    float largest = span.begin < span.end ? largestTexel(ray, vec2(span.begin, span.end)) : kNone;
     vec4 rgba = largest > kNone ? opacityScale * overLength(classifyTexel(texelSign * largest), 1.0) : vec4(0.0);
     imageStore(target, pixel, rgba);
 }

@@ -7,15 +7,14 @@
 namespace voxsheet {
 
 void drawRaycast(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volume, frame, target] = request;
-    auto defines = ClassificationStage::defines(*tile.transfer, volume);
+    const auto& [tile, volumes, frame, target] = request;
+    const auto& volume = volumes.volume;
+    auto defines = stages.definesFor(request);
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels)));
-    defines.emplace_back("SKIP_EMPTY", stages.skipEmptySpace ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
-    stages.classification.bind(program, tile.transfer, volume);
+    stages.bindFor(program, request);
     if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volume);
-    setRayUniforms(program, frame, tile.sizePixels);
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));

@@ -1,10 +1,12 @@
 #include "techniques/slicing/slicing.h"
 
 #include "techniques/slicing/box_slicer.h"
+#include "volume/convex_polytope.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +26,35 @@ glm::dvec3 steepestAdvance(const RayFrame& frame) {
     return steepest;
 }
 
+struct TextureBox {
+    glm::dvec3 low;
+    glm::dvec3 high;
+};
+
+/// Around what the clip planes leave of the box, in the texture frame; nothing if they leave nothing.
+std::optional<TextureBox> keptBox(const DrawRequest& request) {
+    const auto& [tile, volumes, frame, target] = request;
+    if (tile.clip.planes.empty()) return TextureBox{frame.boxLow, frame.boxHigh};
+    const auto& grid = volumes.volume.meta->grid;
+    const auto polytope = clippedBox(grid, tile.clip.planes);
+    if (polytope.empty()) return std::nullopt;
+    const auto textureFromWorld = glm::inverse(worldFromTexture(grid));
+    TextureBox box{frame.boxHigh, frame.boxLow};
+    for (const auto& face : polytope.faces)
+        for (const auto& point : face.polygon) {
+            const auto texture = glm::dvec3(textureFromWorld * glm::dvec4(point, 1.0));
+            box.low = glm::min(box.low, texture);
+            box.high = glm::max(box.high, texture);
+        }
+    return box;
+}
+
 /// The box, wider by `margin` (texture frame) on all sides, in the frame (x, y: view coordinates, z: depth
-/// beyond the box's centre), all in bounding radii.
-BoxCorners cornersInView(const RayFrame& frame, const glm::dvec3& margin, const glm::dmat4& viewFromTexture) {
-    const auto low = frame.boxLow - margin;
-    const auto high = frame.boxHigh + margin;
+/// beyond the centre of the volume's box), all in bounding radii.
+BoxCorners cornersInView(const TextureBox& box, const RayFrame& frame, const glm::dvec3& margin,
+                         const glm::dmat4& viewFromTexture) {
+    const auto low = box.low - margin;
+    const auto high = box.high + margin;
     BoxCorners corners{};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 texture((corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y,
@@ -82,16 +108,20 @@ void SlicingTechnique::uploadVertices(std::span<const std::byte> bytes) {
 }
 
 void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volume, frame, target] = request;
+    const auto& [tile, volumes, frame, target] = request;
+    const auto& volume = volumes.volume;
     const double slabDepth =
         tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, volume.dims, glm::dvec2(0.0)));
     const auto steepest = steepestAdvance(frame);
     const int slabsPerPolygon = chunkSamples(slabDepth * glm::length(steepest * glm::dvec3(volume.dims)));
     const double thickness = slabDepth * slabsPerPolygon;
-    const auto corners = cornersInView(frame, 0.5 * thickness * steepest,
-                                       tile.camera.viewFromWorld * worldFromTexture(volume.meta->grid));
-    const auto polygons = sliceBox(corners, {0.0, thickness, frame.nearest - 0.5 * thickness});
-    const auto vertices = triangles(polygons, frame, thickness);
+    std::vector<SliceVertex> vertices;
+    if (const auto box = keptBox(request)) {
+        const auto corners = cornersInView(*box, frame, 0.5 * thickness * steepest,
+                                           tile.camera.viewFromWorld * worldFromTexture(volume.meta->grid));
+        vertices =
+            triangles(sliceBox(corners, {0.0, thickness, frame.nearest - 0.5 * thickness}), frame, thickness);
+    }
 
     const gpu::Framebuffer framebuffer(context_, target);
     framebuffer.bind();
@@ -106,15 +136,14 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
 void SlicingTechnique::drawTriangles(SharedStages& stages, const DrawRequest& request,
                                      std::span<const SliceVertex> vertices, double slabDepth,
                                      int slabsPerPolygon) {
-    const auto& [tile, volume, frame, target] = request;
-    auto defines = ClassificationStage::defines(*tile.transfer, volume);
+    const auto& [tile, volumes, frame, target] = request;
+    auto defines = stages.definesFor(request);
     defines.emplace_back("SLABS_PER_POLYGON", std::to_string(slabsPerPolygon));
-    defines.emplace_back("SKIP_EMPTY", stages.skipEmptySpace ? "1" : "0");
     const auto& program = stages.programs.graphics("techniques/slicing/slice_vertex.glsl",
                                                    "techniques/slicing/slice_fragment.glsl", defines);
-    stages.classification.bind(program, tile.transfer, volume);
-    if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volume);
-    setRayUniforms(program, frame, tile.sizePixels);
+    stages.bindFor(program, request);
+    if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volumes.volume);
+    program.set("voxelsPerTexture", glm::vec3(volumes.volume.dims));
     program.set("slabDepth", static_cast<float>(slabDepth));
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));
 

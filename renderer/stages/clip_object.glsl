@@ -1,0 +1,81 @@
+// What a clip object leaves of a ray (stages/clip_stage.h). Needs camera_rays.glsl.
+//   CLIP_OBJECT  0 none, 1 by distance, 2 by the sign of the nearest sample
+//   CLIP_FILTER  1: the shader interpolates distances itself
+#include "stages/filtering.glsl"
+
+#if CLIP_OBJECT
+layout(binding = 3) uniform sampler3D clipDistances;
+
+uniform mat4 clipFromTexture;    // texture frame of the volume to that of the distances
+uniform mat3 objectFromTexture;  // to the world of the distances; its linear part
+uniform vec2 measureFromTexel;   // measure = texel * x + y: a distance, >= 0 where the volume is kept
+uniform float nearestSampleSlack; // how far the nearest sample may differ from the interpolant
+uniform mat3 viewFromClipGradient;
+uniform vec3 clipTexelSize; // 1 / samples per axis
+
+// Distances of interpolants change by at most this much per unit of length (sqrt 3 in the worst of directions).
+const float kSteepest = 1.8;
+
+// The ray in the frame of the distances.
+struct ClipRay {
+    vec3 origin;
+    vec3 direction;
+    float lengthPerDepth; // in units of the distances
+};
+
+ClipRay clipRayOf(Ray ray) {
+    return ClipRay((clipFromTexture * vec4(ray.origin, 1.0)).xyz, mat3(clipFromTexture) * ray.direction,
+                   length(objectFromTexture * ray.direction));
+}
+
+float distanceTexel(vec3 position) {
+#if CLIP_OBJECT == 2
+    ivec3 size = textureSize(clipDistances, 0);
+    return texelFetch(clipDistances, clamp(ivec3(floor(position * vec3(size))), ivec3(0), size - 1), 0).r;
+#elif CLIP_FILTER
+    return filteredTexel(clipDistances, position, vec3(0.0));
+#else
+    return textureLod(clipDistances, position, 0.0).r;
+#endif
+}
+
+float keptMeasure(ClipRay ray, float depth) {
+    return distanceTexel(ray.origin + depth * ray.direction) * measureFromTexel.x + measureFromTexel.y;
+}
+
+// For all depths of [begin, end] at once, with one look-up: 1 kept, -1 removed, 0 not known.
+int clipVerdict(ClipRay ray, float begin, float end) {
+    float measure = keptMeasure(ray, 0.5 * (begin + end));
+    float reach = kSteepest * 0.5 * (end - begin) * ray.lengthPerDepth + nearestSampleSlack;
+    return measure > reach ? 1 : measure < -reach ? -1 : 0;
+}
+
+// Where the measure, linear from depth `begin` to `end`, is 0; its signs there differ.
+float clipCrossing(float begin, float end, float measureBegin, float measureEnd) {
+    return begin + (end - begin) * clamp(measureBegin / (measureBegin - measureEnd), 0.0, 1.0);
+}
+
+// The kept part of the stretch [begin, end]; empty: x == y.
+vec2 keptPart(float begin, float end, float measureBegin, float measureEnd) {
+    bool first = measureBegin >= 0.0;
+    bool last = measureEnd >= 0.0;
+    if (first == last) return first ? vec2(begin, end) : vec2(begin);
+    float crossing = clipCrossing(begin, end, measureBegin, measureEnd);
+    return first ? vec2(begin, crossing) : vec2(crossing, end);
+}
+
+// Normal of the object's surface, in the view frame, of any length.
+vec3 clipSurfaceNormal(vec3 position) {
+    vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3 step = vec3(0.0);
+        step[axis] = clipTexelSize[axis];
+#if CLIP_FILTER
+        gradient[axis] = filteredTexel(clipDistances, position + step, vec3(0.0)) - filteredTexel(clipDistances, position - step, vec3(0.0));
+#else
+        gradient[axis] = textureLod(clipDistances, position + step, 0.0).r - textureLod(clipDistances, position - step, 0.0).r;
+#endif
+    }
+    return viewFromClipGradient * gradient;
+}
+#endif

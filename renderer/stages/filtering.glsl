@@ -1,0 +1,22 @@
+// Trilinear interpolation by the shader itself, for drivers that do not filter 32-bit float textures.
+
+// Index of a sample beyond the ends: wrapped on periodic axes, else the nearest.
+ivec3 sampleInside(ivec3 index, ivec3 size, vec3 periodic) {
+    ivec3 wrapped = index - size * ivec3(floor(vec3(index) / vec3(size)));
+    return ivec3(mix(vec3(clamp(index, ivec3(0), size - 1)), vec3(wrapped), periodic));
+}
+
+float filteredTexel(sampler3D samples, vec3 position, vec3 periodic) {
+    ivec3 size = textureSize(samples, 0);
+    vec3 index = position * vec3(size) - 0.5;
+    vec3 base = floor(index);
+    vec3 weight = index - base;
+    ivec3 low = sampleInside(ivec3(base), size, periodic);
+    ivec3 high = sampleInside(ivec3(base) + 1, size, periodic);
+    float corner[8];
+    for (int i = 0; i < 8; ++i)
+        corner[i] = texelFetch(samples, ivec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z), 0).r;
+    vec4 alongX = mix(vec4(corner[0], corner[2], corner[4], corner[6]), vec4(corner[1], corner[3], corner[5], corner[7]), weight.x);
+    vec2 alongY = mix(alongX.xz, alongX.yw, weight.y);
+    return mix(alongY.x, alongY.y, weight.z);
+}

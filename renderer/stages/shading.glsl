@@ -1,0 +1,76 @@
+// Light on a sample or a surface (stages/shading_spec.h, stages/shading_stage.h). Needs classification.glsl and kept_span.glsl;
+// clip_object.glsl where objects clip.
+//   SHADING           1: lit
+//   GRADIENT_TEXTURE  1: gradients come from a texture, else from six taps
+#if SHADING
+uniform vec4 material; // ambient, diffuse, specular, shininess
+uniform float headLight;
+const int kMaxLights = 4;
+uniform int lightCount;
+uniform vec4 lights[kMaxLights];              // unit directions towards them in the view frame; w: intensity
+uniform vec4 cutNormals[kMaxClipPlanes];      // of the clip planes, in the view frame
+uniform mat3 viewFromGradient;                // from differences per voxel of the drawn level; any scale
+uniform vec3 voxelSize;                       // 1 / samples per axis of the drawn level
+uniform vec3 gradientPeriodic;                // 1 on axes that wrap
+
+#if GRADIENT_TEXTURE
+layout(binding = 4) uniform sampler3D gradients;
+
+vec3 gradientAt(vec3 position) { return textureLod(gradients, position, 0.0).rgb; }
+#else
+// Central differences over one voxel to both sides; taps do not leave the samples on axes that do not wrap.
+vec3 gradientAt(vec3 position) {
+    vec3 low = mix(max(position - voxelSize, 0.5 * voxelSize), position - voxelSize, gradientPeriodic);
+    vec3 high = mix(min(position + voxelSize, 1.0 - 0.5 * voxelSize), position + voxelSize, gradientPeriodic);
+    vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3 before = position;
+        vec3 after = position;
+        before[axis] = low[axis];
+        after[axis] = high[axis];
+        float distance = (high[axis] - low[axis]) / voxelSize[axis];
+        gradient[axis] = distance > 0.0 ? (texelAt(after) - texelAt(before)) / distance : 0.0;
+    }
+    return gradient;
+}
+#endif
+
+vec3 reflected(vec3 rgb, vec3 normal, vec3 toEye, vec4 light) {
+    float facing = dot(normal, light.xyz);
+    if (facing <= 0.0) return vec3(0.0);
+    vec3 mirrored = 2.0 * facing * normal - light.xyz;
+    float highlight = pow(max(dot(mirrored, toEye), 0.0), material.w);
+    return light.w * (material.y * facing * rgb + material.z * highlight);
+}
+
+// `normal` in the view frame, of any length and sign; where it has none, the colour stays.
+vec3 lit(vec3 rgb, vec3 normal, vec3 toEye) {
+    float magnitude = length(normal);
+    if (!(magnitude > 0.0)) return rgb;
+    vec3 unit = normal / magnitude;
+    if (dot(unit, toEye) < 0.0) unit = -unit;
+    vec3 colour = material.x * rgb + reflected(rgb, unit, toEye, vec4(toEye, headLight));
+    for (int i = 0; i < lightCount; ++i) colour += reflected(rgb, unit, toEye, lights[i]);
+    return min(colour, 1.0);
+}
+
+// Of a sample at `depth` inside the volume: the cut's normal within one voxel behind a cut, else the gradient's.
+vec3 sampleNormal(Ray ray, KeptSpan span, float depth, float depthPerVoxel
+#if CLIP_OBJECT
+                  , ClipRay clip, bool nearObject
+#endif
+) {
+#if CLIP_OBJECT
+    if (nearObject) {
+        float before = max(depth - depthPerVoxel, span.begin);
+        float measureBefore = keptMeasure(clip, before);
+        if (measureBefore < 0.0) {
+            float crossing = clipCrossing(before, depth, measureBefore, max(keptMeasure(clip, depth), 0.0));
+            return clipSurfaceNormal(clip.origin + crossing * clip.direction);
+        }
+    }
+#endif
+    if (span.cutPlane >= 0 && depth - span.begin <= depthPerVoxel) return cutNormals[span.cutPlane].xyz;
+    return viewFromGradient * gradientAt(ray.origin + depth * ray.direction);
+}
+#endif

@@ -1,0 +1,23 @@
+#include "stages/shared_stages.h"
+
+namespace voxsheet {
+
+gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
+    const auto& [tile, volumes, frame, target] = request;
+    auto defines = ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader);
+    for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
+                             ShadingStage::defines(tile.shading, volumes.gradients)})
+        defines.insert(defines.end(), more.begin(), more.end());
+    defines.emplace_back("SKIP_EMPTY", skipEmptySpace ? "1" : "0");
+    return defines;
+}
+
+void SharedStages::bindFor(const gpu::Program& program, const DrawRequest& request) {
+    const auto& [tile, volumes, frame, target] = request;
+    classification.bind(program, tile.transfer, volumes.volume);
+    setRayUniforms(program, frame, tile.sizePixels);
+    ClipStage::bind(program, tile, volumes.volume.meta->grid, volumes.clipObject);
+    ShadingStage::bind(program, tile, volumes.volume, volumes.gradients);
+}
+
+} // namespace voxsheet
