@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/log.h"
+#include "volume/clip_shape_provider.h"
 
 #include <algorithm>
 #include <cstring>
@@ -39,8 +40,9 @@ RenderDevice withBudget(RenderDevice device, std::uint64_t budgetBytes) {
 TileRenderer::TileRenderer(std::shared_ptr<const VolumeProvider> volumes, int device,
                            std::uint64_t textureBudgetBytes)
     : context_(device), device_(withBudget(context_.device(), textureBudgetBytes)),
-      residency_(context_, std::move(volumes), device_.textureBudgetBytes), techniques_(context_),
-      resolver_(context_), targets_(context_) {}
+      residency_(context_, std::make_shared<const ClipShapeProvider>(std::move(volumes)),
+                 device_.textureBudgetBytes),
+      techniques_(context_), resolver_(context_), targets_(context_) {}
 
 std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
     const auto fits = [&](const auto& slot) { return slot->readback.capacityBytes() >= bytes; };

@@ -64,11 +64,13 @@ TEST_F(Resolver, DrawingLeavesNoGlObjectsBehind) {
     TechniqueSet techniques(context());
     for (int round = 0; round < 3; ++round) {
         for (const char* key : {"a", "b"}) {
-            for (const Technique technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
+            for (const Technique technique : {Technique::Raycast, Technique::Slices, Technique::Mip,
+                                              Technique::Surface, Technique::Isosurface}) {
                 TileSpec tile = frontTile(key, 20, 57.0, 16 + 8 * round);
                 tile.technique = technique;
-                const VolumeLease lease = residency.acquire({key, 0, 0, 0});
-                techniques.draw(tile, lease.volume(), targets.acquire(tile.sizePixels));
+                tile.isosurface.surfaces = {{0.5, glm::vec4(1.0F)}};
+                const TileVolumes volumes = techniques.acquire(residency, tile);
+                techniques.draw(tile, volumes, targets.acquire(tile.sizePixels));
             }
         }
         residency.forget("a");
