@@ -28,6 +28,12 @@ const char* keyTypeName(KeyType type) {
         return "opacityPoints";
     case KeyType::ColourPoints:
         return "colourPoints";
+    case KeyType::NumberRows:
+        return "numberRows";
+    case KeyType::Colours:
+        return "colours";
+    case KeyType::Text:
+        return "text";
     case KeyType::FieldName:
         break;
     }
@@ -70,10 +76,18 @@ json describeKeys(const KeyTable& table) {
                   {"takesAuto", key.takesAuto},
                   {"default", styleValueToJson(key.defaultValue)}};
         if (!key.unit.empty()) item["unit"] = key.unit;
-        if (key.type == KeyType::Number || key.type == KeyType::Integer || key.type == KeyType::Vector3) {
+        if (key.type == KeyType::Number || key.type == KeyType::Integer || key.type == KeyType::Vector3 ||
+            key.type == KeyType::NumberRows) {
             item["min"] = key.min;
             item["max"] = key.max;
         }
+        if (key.type == KeyType::NumberRows) {
+            item["columns"] = key.columnNames.size();
+            item["columnNames"] = key.columnNames;
+            item["minRows"] = key.minRows;
+            item["maxRows"] = key.maxRows;
+        }
+        if (!key.suggestions.empty()) item["suggestions"] = key.suggestions;
         if (!key.choices.empty()) item["choices"] = key.choices;
         if (!key.appliesWhen.key.empty())
             item["appliesWhen"] = {{"key", key.appliesWhen.key}, {"values", key.appliesWhen.values}};

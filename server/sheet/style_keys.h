@@ -22,9 +22,13 @@ enum class KeyType {
     OpacityPoints, ///< OpacityStops: 1 to 256, positions in [0, 1] and not falling, opacities in [0, 1]
     ColourPoints,  ///< ColourStops: 1 to 256, positions in [0, 1] and not falling
     FieldName,     ///< std::string (a field's name) or std::int64_t (its index, from 0)
+    NumberRows,    ///< NumberTable: minRows to maxRows rows of columnNames.size() numbers, each in [min, max]
+    Colours,       ///< ColourList: 1 to 8, opaque
+    Text,          ///< std::string: 1 to 200 bytes of UTF-8 without control characters
 };
 
-/// "number", "integer", "choice", "colour", "vector3", "opacityPoints", "colourPoints", "fieldName".
+/// "number", "integer", "choice", "colour", "vector3", "opacityPoints", "colourPoints", "fieldName",
+/// "numberRows", "colours", "text".
 [[nodiscard]] const char* keyTypeName(KeyType type);
 
 /// Whom a key belongs to: what one person looks at starts from the workbook but belongs to the page.
@@ -40,11 +44,15 @@ struct KeySpec {
     std::string name; ///< dotted
     KeyType type = KeyType::Number;
     std::string unit; ///< "degrees", "voxels", …; empty when it has none
-    double min = 0.0; ///< inclusive; Number, Integer, Vector3
+    double min = 0.0; ///< inclusive; Number, Integer, Vector3, NumberRows
     double max = 0.0;
-    std::vector<std::string> choices; ///< Choice
-    bool takesNone = false;           ///< "none" is a value
-    bool takesAuto = false;           ///< "auto" is a value
+    std::vector<std::string> columnNames; ///< NumberRows
+    std::size_t minRows = 1;              ///< NumberRows
+    std::size_t maxRows = 1;
+    std::vector<std::string> suggestions; ///< Text: words that mean something, for the inspector
+    std::vector<std::string> choices;     ///< Choice
+    bool takesNone = false;               ///< "none" is a value
+    bool takesAuto = false;               ///< "auto" is a value
     StyleValue defaultValue;
     std::string group;  ///< heading in the inspector
     std::string widget; ///< "slider", "number", "select", "swatch", "curve", "vector", "text"

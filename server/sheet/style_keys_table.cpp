@@ -1,6 +1,7 @@
 #include "sheet/style_keys.h"
 
 #include "base/errors.h"
+#include "sheet/style_key_builders.h"
 #include "sheet/typed_style.h"
 
 #include <algorithm>
@@ -9,66 +10,11 @@ namespace voxsheet::sheet {
 
 namespace {
 
-KeySpec choice(std::string name, std::vector<std::string> choices, std::string initial, std::string group,
-               std::string doc) {
-    KeySpec key;
-    key.name = std::move(name);
-    key.type = KeyType::Choice;
-    key.choices = std::move(choices);
-    key.defaultValue = std::move(initial);
-    key.group = std::move(group);
-    key.widget = "select";
-    key.doc = std::move(doc);
-    return key;
-}
-
-KeySpec number(std::string name, std::string unit, double min, double max, StyleValue initial,
-               std::string group, std::string doc, std::string widget = "slider") {
-    KeySpec key;
-    key.name = std::move(name);
-    key.type = KeyType::Number;
-    key.unit = std::move(unit);
-    key.min = min;
-    key.max = max;
-    key.defaultValue = std::move(initial);
-    key.group = std::move(group);
-    key.widget = std::move(widget);
-    key.doc = std::move(doc);
-    return key;
-}
-
-KeySpec typed(std::string name, KeyType type, StyleValue initial, std::string group, std::string widget,
-              std::string doc) {
-    KeySpec key;
-    key.name = std::move(name);
-    key.type = type;
-    key.defaultValue = std::move(initial);
-    key.group = std::move(group);
-    key.widget = std::move(widget);
-    key.doc = std::move(doc);
-    return key;
-}
-
-KeySpec withNone(KeySpec key) {
-    key.takesNone = true;
-    return key;
-}
-
-KeySpec withAuto(KeySpec key) {
-    key.takesAuto = true;
-    return key;
-}
-
-KeySpec when(KeySpec key, std::string other, std::vector<std::string> values) {
-    key.appliesWhen = {std::move(other), std::move(values)};
-    return key;
-}
-
 void addTechnique(std::vector<KeySpec>& keys) {
     keys.push_back(
-        choice("technique", {"slices", "raycast", "mip"}, "raycast", "Technique",
+        choice("technique", {"slices", "raycast", "mip", "surface", "isosurface"}, "raycast", "Technique",
                "How the volume is drawn: view-aligned slices blended back to front, a ray through every "
-               "pixel, or the largest value along each ray."));
+               "pixel, the largest value along each ray, the outer and cut faces, or isosurfaces."));
 }
 
 void addCamera(std::vector<KeySpec>& keys) {
@@ -125,7 +71,7 @@ void addTransfer(std::vector<KeySpec>& keys, std::vector<std::string> maps) {
              "transfer.shape", {"piecewise"}));
     keys.push_back(choice(
         "transfer.shape", {"piecewise", "linear", "exponential", "parabolic"}, "piecewise", group,
-        "Colours from the map or points (piecewise), or red, green and blue as functions of value with "
+        "ColourList from the map or points (piecewise), or red, green and blue as functions of value with "
         "two cuts."));
     keys.push_back(when(number("transfer.cut1", "of the range", 0, 1, 0.25, group,
                                "Lower cut of the red, green and blue functions; less than transfer.cut2."),
@@ -181,6 +127,15 @@ void addPicture(std::vector<KeySpec>& keys) {
     keys.push_back(
         choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,
                "Level of detail of the picture at rest: every voxel, or every second, fourth or eighth."));
+    keys.push_back(choice(
+        "texture.format", {"auto", "half"}, "auto", group,
+        "Volumes of 32-bit floats as textures: as they are, or (half) as 16-bit floats over their range, in "
+        "half the memory."));
+    keys.push_back(withAuto(number(
+        "probe.opacity", "", 0, 1, Automatic{}, group,
+        "Picking in a volume takes the first sample at least this opaque per unit length; auto: where the "
+        "accumulated opacity passes one half.",
+        "number")));
     keys.push_back(typed("background", KeyType::Colour, Colour{{0x10, 0x13, 0x16, 255}}, group, "swatch",
                          "Behind the volume: #rrggbb or transparent."));
     keys.push_back(choice("annotations", {"none", "names", "all"}, "all", group,
@@ -199,6 +154,9 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     if (colourMapNames.empty()) throw InvalidInput("colour maps", "there are none", "give at least one");
     std::vector<KeySpec> keys;
     addTechnique(keys);
+    addIsosurfaceKeys(keys);
+    addClipKeys(keys);
+    addLightKeys(keys);
     addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
     addPicture(keys);

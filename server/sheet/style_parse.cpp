@@ -18,6 +18,21 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t kMaxColours = 8;
+constexpr std::size_t kMaxTextBytes = 200;
+
+/// "1 to 8 numbers", "up to 8 rows [x, y, z, position]".
+std::string rowsExpectation(const KeySpec& key) {
+    const std::string many = key.minRows == key.maxRows
+                                 ? std::to_string(key.maxRows)
+                                 : std::to_string(key.minRows) + " to " + std::to_string(key.maxRows);
+    if (key.columnNames.size() == 1) return many + (key.maxRows == 1 ? " number" : " numbers");
+    std::string names;
+    for (const std::string& name : key.columnNames)
+        names += (names.empty() ? "" : ", ") + name;
+    return many + (key.maxRows == 1 ? " row [" : " rows [") + names + "]";
+}
+
 /// "a number from 0 to 1, or auto", for messages.
 std::string expectation(const KeySpec& key) {
     const std::string bounds = "from " + numberText(key.min) + " to " + numberText(key.max);
@@ -47,6 +62,15 @@ std::string expectation(const KeySpec& key) {
         break;
     case KeyType::FieldName:
         text = "a field's name, or its index from 0";
+        break;
+    case KeyType::NumberRows:
+        text = rowsExpectation(key) + ", each " + bounds;
+        break;
+    case KeyType::Colours:
+        text = "1 to " + std::to_string(kMaxColours) + " colours #rrggbb";
+        break;
+    case KeyType::Text:
+        text = "a text of 1 to " + std::to_string(kMaxTextBytes) + " bytes";
         break;
     }
     if (key.takesNone) text += ", or none";
@@ -102,6 +126,43 @@ ColourStops coloursFromJson(const KeySpec& key, const json& value) {
     return stops;
 }
 
+std::vector<double> rowFromJson(const KeySpec& key, const json& value) {
+    if (!value.is_array() || value.size() != key.columnNames.size()) refuse(key, shownJson(value));
+    std::vector<double> row;
+    for (const json& item : value)
+        row.push_back(finiteNumber(key, item));
+    return row;
+}
+
+NumberTable rowsFromJson(const KeySpec& key, const json& value) {
+    NumberTable table;
+    if (value.is_number()) {
+        table.rows.push_back(rowFromJson(key, json::array({value})));
+        return table;
+    }
+    if (!value.is_array()) refuse(key, shownJson(value));
+    const bool flat = !value.empty() && value.front().is_number();
+    if (flat && key.columnNames.size() > 1) {
+        table.rows.push_back(rowFromJson(key, value));
+        return table;
+    }
+    for (const json& item : value)
+        table.rows.push_back(rowFromJson(key, flat ? json::array({item}) : item));
+    return table;
+}
+
+ColourList colourListFromJson(const KeySpec& key, const json& value) {
+    const json list = value.is_string() ? json::array({value}) : value;
+    if (!list.is_array()) refuse(key, shownJson(value));
+    ColourList colours;
+    for (const json& item : list) {
+        const auto colour = item.is_string() ? parseColour(item.get_ref<const std::string&>()) : std::nullopt;
+        if (!colour) refuse(key, shownJson(item));
+        colours.push_back(*colour);
+    }
+    return colours;
+}
+
 std::int64_t integerFromJson(const KeySpec& key, const json& value) {
     const double number = finiteNumber(key, value);
     // 3.0 is a whole number to most programs that write JSON.
@@ -132,6 +193,13 @@ StyleValue readJson(const KeySpec& key, const json& value) {
         return opacitiesFromJson(key, value);
     case KeyType::ColourPoints:
         return coloursFromJson(key, value);
+    case KeyType::NumberRows:
+        return rowsFromJson(key, value);
+    case KeyType::Colours:
+        return colourListFromJson(key, value);
+    case KeyType::Text:
+        if (!word) refuse(key, shownJson(value));
+        return value.get<std::string>();
     case KeyType::FieldName:
         break;
     }
@@ -149,6 +217,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string_view::npos ? std::string_view{}
+                                           : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 json numberOrText(std::string_view text) {
     if (const auto number = parseNumber(text)) return *number;
     return std::string(text);
@@ -157,7 +231,8 @@ json numberOrText(std::string_view text) {
 /// The JSON value that a text stands for; what it cannot be stays a string, which readJson then refuses.
 json jsonFromText(const KeySpec& key, std::string_view text) {
     const bool isJson = !text.empty() && (text.front() == '[' || text.front() == '"');
-    if (isJson && key.type != KeyType::FieldName) return parseBoundedJson(text, key.name, {65536, 8});
+    if (isJson && key.type != KeyType::FieldName && key.type != KeyType::Text)
+        return parseBoundedJson(text, key.name, {65536, 8});
     switch (key.type) {
     case KeyType::Number:
     case KeyType::Integer:
@@ -183,12 +258,32 @@ json jsonFromText(const KeySpec& key, std::string_view text) {
         }
         return list;
     }
+    case KeyType::NumberRows: {
+        if (text == "none" || text == "auto") break;
+        json list = json::array();
+        // In a column a comma is as good as a semicolon.
+        for (const std::string_view row : split(text, key.columnNames.size() == 1 ? ',' : ';')) {
+            json numbers = json::array();
+            for (const std::string_view part : split(row, ','))
+                numbers.push_back(numberOrText(trimmed(part)));
+            list.push_back(std::move(numbers));
+        }
+        return list;
+    }
+    case KeyType::Colours: {
+        if (text == "auto") break;
+        json list = json::array();
+        for (const std::string_view part : split(text, ','))
+            list.push_back(std::string(trimmed(part)));
+        return list;
+    }
     case KeyType::FieldName:
         if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos)
             return numberOrText(text);
         break;
     case KeyType::Choice:
     case KeyType::Colour:
+    case KeyType::Text:
         break;
     }
     return std::string(text);
@@ -275,6 +370,9 @@ struct Validator {
     bool operator()(const std::string& value) const {
         if (key.type == KeyType::FieldName)
             return !value.empty() && value.size() <= 200 && isValidUtf8(value) && !hasControlCharacter(value);
+        if (key.type == KeyType::Text)
+            return !value.empty() && value.size() <= kMaxTextBytes && isValidUtf8(value) &&
+                   !hasControlCharacter(value);
         return key.type == KeyType::Choice &&
                std::find(key.choices.begin(), key.choices.end(), value) != key.choices.end();
     }
@@ -291,6 +389,19 @@ struct Validator {
         return key.type == KeyType::ColourPoints && isOrdered(stops) &&
                std::all_of(stops.begin(), stops.end(),
                            [](const ColourStop& s) { return s.colour.rgba[3] == 255; });
+    }
+    bool operator()(const NumberTable& table) const {
+        if (key.type != KeyType::NumberRows || table.rows.size() < key.minRows ||
+            table.rows.size() > key.maxRows)
+            return false;
+        return std::all_of(table.rows.begin(), table.rows.end(), [&](const std::vector<double>& row) {
+            return row.size() == key.columnNames.size() &&
+                   std::all_of(row.begin(), row.end(), [&](double value) { return inBounds(value); });
+        });
+    }
+    bool operator()(const ColourList& colours) const {
+        return key.type == KeyType::Colours && !colours.empty() && colours.size() <= kMaxColours &&
+               std::all_of(colours.begin(), colours.end(), [](const Colour& c) { return c.rgba[3] == 255; });
     }
 };
 

@@ -30,6 +30,20 @@ struct ToJson {
             list.push_back(json::array({stop.position, colourName(stop.colour)}));
         return list;
     }
+    /// A column is a flat list, and so is a single row.
+    json operator()(const NumberTable& table) const {
+        json list = json::array();
+        const bool column = !table.rows.empty() && table.rows.front().size() == 1;
+        for (const auto& row : table.rows)
+            list.push_back(column ? json(row.front()) : json(row));
+        return list.size() == 1 && !column ? list.front() : list;
+    }
+    json operator()(const ColourList& colours) const {
+        json list = json::array();
+        for (const Colour& colour : colours)
+            list.push_back(colourName(colour));
+        return list;
+    }
 };
 
 struct ToText {
@@ -52,6 +66,21 @@ struct ToText {
         std::string text;
         for (const ColourStop& stop : stops)
             text += (text.empty() ? "" : ",") + numberText(stop.position) + ":" + colourName(stop.colour);
+        return text;
+    }
+    std::string operator()(const NumberTable& table) const {
+        std::string text;
+        for (const auto& row : table.rows) {
+            if (!text.empty()) text += row.size() == 1 ? "," : ";";
+            for (std::size_t i = 0; i < row.size(); ++i)
+                text += (i == 0 ? "" : ",") + numberText(row[i]);
+        }
+        return text;
+    }
+    std::string operator()(const ColourList& colours) const {
+        std::string text;
+        for (const Colour& colour : colours)
+            text += (text.empty() ? "" : ",") + colourName(colour);
         return text;
     }
 };

@@ -38,12 +38,19 @@ struct ColourStop {
     bool operator==(const ColourStop&) const = default;
 };
 
+/// A table of finite numbers, all rows of one length.
+struct NumberTable {
+    std::vector<std::vector<double>> rows;
+    bool operator==(const NumberTable&) const = default;
+};
+
+using ColourList = std::vector<Colour>;
 using OpacityStops = std::vector<OpacityStop>;
 using ColourStops = std::vector<ColourStop>;
 
 /// Which alternatives a key takes is in its KeySpec. Choices and names are strings.
 using StyleValue = std::variant<None, Automatic, double, std::int64_t, std::string, Colour, glm::dvec3,
-                                OpacityStops, ColourStops>;
+                                OpacityStops, ColourStops, NumberTable, ColourList>;
 
 /// The values that one layer sets; keys that are absent are inherited.
 using StyleMap = std::map<std::string, StyleValue>;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace voxsheet::sheet {
@@ -40,7 +41,12 @@ public:
     }
     template <typename Enum, std::size_t N>
     [[nodiscard]] Enum choice(const char* key, const std::array<std::string_view, N>& words) const {
+        if (std::holds_alternative<Automatic>(value_(key))) return enumOf<Enum>(words, "auto", key);
         return enumOf<Enum>(words, get<std::string>(key), key);
+    }
+    /// Empty for "none" and "auto".
+    [[nodiscard]] std::vector<std::vector<double>> rows(const char* key) const {
+        return find<NumberTable>(key).value_or(NumberTable{}).rows;
     }
     [[nodiscard]] FieldChoice field(const char* key) const {
         if (const auto* name = std::get_if<std::string>(&value_(key))) return *name;
@@ -59,15 +65,25 @@ private:
 using Words2 = std::array<std::string_view, 2>;
 using Words3 = std::array<std::string_view, 3>;
 using Words4 = std::array<std::string_view, 4>;
+using Words5 = std::array<std::string_view, 5>;
 using Words6 = std::array<std::string_view, 6>;
 
-constexpr Words3 kTechniques{"slices", "raycast", "mip"};
+constexpr Words5 kTechniques{"slices", "raycast", "mip", "surface", "isosurface"};
 constexpr Words2 kProjections{"perspective", "orthographic"};
 constexpr Words4 kShapes{"piecewise", "linear", "exponential", "parabolic"};
 constexpr Words6 kRangeModes{"auto", "own", "shared", "fixed", "percentile", "symmetric"};
 constexpr Words3 kScales{"linear", "log", "symlog"};
 constexpr Words4 kQualities{"full", "half", "quarter", "eighth"};
 constexpr Words3 kAnnotations{"none", "names", "all"};
+constexpr Words2 kSwitch{"off", "on"};
+constexpr Words2 kClipUnits{"fraction", "world"};
+constexpr Words2 kClipModes{"probe", "clip"};
+constexpr Words2 kClipRepresentations{"distance", "binary"};
+constexpr Words2 kIsosurfaceMethods{"refined", "alphatest"};
+constexpr Words3 kShadingModels{"auto", "none", "phong"};
+constexpr Words3 kGradients{"auto", "texture", "onthefly"};
+constexpr Words2 kLightFrames{"view", "world"};
+constexpr Words2 kTextureFormats{"auto", "half"};
 
 CameraStyle cameraOf(const Reader& read) {
     CameraStyle camera;
@@ -96,6 +112,67 @@ TransferStyle transferOf(const Reader& read) {
     return transfer;
 }
 
+glm::dvec3 vectorAt(const std::vector<double>& row, std::size_t first) {
+    return {row.at(first), row.at(first + 1), row.at(first + 2)};
+}
+
+ClipStyle clipOf(const Reader& read) {
+    ClipStyle clip;
+    clip.units = read.choice<ClipUnits>("clip.units", kClipUnits);
+    for (const auto& row : read.rows("clip.planes"))
+        clip.planes.push_back({vectorAt(row, 0), row.at(3)});
+    if (const auto rows = read.rows("clip.box"); !rows.empty()) {
+        const auto& b = rows.front();
+        clip.box = ClipStyle::Box{{b.at(0), b.at(2), b.at(4)}, {b.at(1), b.at(3), b.at(5)}};
+    }
+    clip.shape = read.find<std::string>("clip.shape").value_or("");
+    clip.mode = read.choice<ClipMode>("clip.mode", kClipModes);
+    clip.representation = read.choice<ClipRepresentation>("clip.representation", kClipRepresentations);
+    const auto transform = read.rows("clip.transform").at(0);
+    clip.transform = {vectorAt(transform, 0), vectorAt(transform, 3), vectorAt(transform, 6)};
+    return clip;
+}
+
+std::vector<double> columnOf(const std::vector<std::vector<double>>& rows) {
+    std::vector<double> column;
+    for (const auto& row : rows)
+        column.push_back(row.at(0));
+    return column;
+}
+
+IsosurfaceStyle isosurfaceOf(const Reader& read) {
+    IsosurfaceStyle isosurface;
+    isosurface.values = columnOf(read.rows("isovalue"));
+    isosurface.mirror = read.choice<int>("isosurface.mirror", kSwitch) == 1;
+    isosurface.colours = read.find<ColourList>("isosurface.colors").value_or(ColourList{});
+    isosurface.opacities = columnOf(read.rows("isosurface.opacity"));
+    isosurface.colourBy = read.find<std::string>("isosurface.colorBy").value_or("");
+    isosurface.caps = read.choice<int>("isosurface.caps", kSwitch) == 1;
+    isosurface.method = read.choice<IsosurfaceMethod>("isosurface.method", kIsosurfaceMethods);
+    return isosurface;
+}
+
+ShadingStyle shadingOf(const Reader& read) {
+    ShadingStyle shading;
+    shading.model = read.choice<ShadingModel>("shading.model", kShadingModels);
+    shading.gradient = read.choice<GradientSource>("shading.gradient", kGradients);
+    shading.ambient = read.get<double>("shading.ambient");
+    shading.diffuse = read.get<double>("shading.diffuse");
+    shading.specular = read.get<double>("shading.specular");
+    shading.shininess = read.get<double>("shading.shininess");
+    return shading;
+}
+
+LightStyle lightOf(const Reader& read) {
+    LightStyle light;
+    light.head = read.get<double>("light.head");
+    for (const auto& row : read.rows("light.direction"))
+        light.directions.push_back(vectorAt(row, 0));
+    light.frame = read.choice<LightFrame>("light.frame", kLightFrames);
+    light.intensity = read.get<double>("light.intensity");
+    return light;
+}
+
 } // namespace
 
 TypedStyle typedStyle(const ResolvedValues& values) {
@@ -112,6 +189,12 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.quality = read.choice<Quality>("quality", kQualities);
     style.background = read.get<Colour>("background");
     style.annotations = read.choice<Annotations>("annotations", kAnnotations);
+    style.clip = clipOf(read);
+    style.isosurface = isosurfaceOf(read);
+    style.shading = shadingOf(read);
+    style.light = lightOf(read);
+    style.textureFormat = read.choice<TextureFormat>("texture.format", kTextureFormats);
+    style.probeOpacity = read.find<double>("probe.opacity");
     style.field = read.field("field");
     style.timeStep = static_cast<int>(read.get<std::int64_t>("time"));
     return style;
@@ -141,6 +224,36 @@ void requireRangeConsistent(const RangeStyle& range) {
             .withField("range.min");
 }
 
+bool isZero(const glm::dvec3& v) { return !(glm::length(v) > 0.0) || !std::isfinite(glm::length(v)); }
+
+void requireClipConsistent(const ClipStyle& clip) {
+    for (const auto& plane : clip.planes)
+        if (isZero(plane.normal))
+            throw InvalidInput("clip.planes", "a normal has no length, or one beyond all bounds",
+                               "give a direction such as 1,0,0")
+                .withField("clip.planes");
+    if (clip.box)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(clip.box->low[axis] < clip.box->high[axis]))
+                throw InvalidInput("clip.box",
+                                   numberText(clip.box->low[axis]) + " is not less than " +
+                                       numberText(clip.box->high[axis]) + " on axis " + "xyz"[axis],
+                                   "give x0,x1,y0,y1,z0,z1 with the lower end first")
+                    .withField("clip.box");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(clip.transform.scale[axis]) > 1e-9))
+            throw InvalidInput("clip.transform", "a scale of 0 leaves no object", "give scales other than 0")
+                .withField("clip.transform");
+}
+
+void requireLightConsistent(const LightStyle& light) {
+    for (const auto& direction : light.directions)
+        if (isZero(direction))
+            throw InvalidInput("light.direction", "a direction has no length, or one beyond all bounds",
+                               "give a direction such as 0,1,1")
+                .withField("light.direction");
+}
+
 } // namespace
 
 void requireConsistent(const TypedStyle& style) {
@@ -151,6 +264,8 @@ void requireConsistent(const TypedStyle& style) {
                            "set both together")
             .withField("transfer.cut1");
     requireRangeConsistent(style.range);
+    requireClipConsistent(style.clip);
+    requireLightConsistent(style.light);
 }
 
 } // namespace voxsheet::sheet

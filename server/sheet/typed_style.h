@@ -165,8 +165,8 @@ struct TypedStyle {
     bool operator==(const TypedStyle&) const = default;
 };
 
-/// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100].
-/// Throws InvalidInput with the field at fault.
+/// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100];
+/// normals, directions and scales not zero; clip.box low < high. Throws InvalidInput with the field at fault.
 void requireConsistent(const TypedStyle& style);
 
 } // namespace voxsheet::sheet

@@ -28,6 +28,12 @@ protected:
     [[nodiscard]] bool isNumeric() const {
         return key().type == KeyType::Number || key().type == KeyType::Integer;
     }
+    [[nodiscard]] bool isColumn() const {
+        return key().type == KeyType::NumberRows && key().columnNames.size() == 1;
+    }
+    [[nodiscard]] bool takesAnyWord() const {
+        return key().type == KeyType::FieldName || key().type == KeyType::Text;
+    }
 };
 
 std::vector<std::string> keyNames() {
@@ -63,13 +69,13 @@ TEST_P(EveryKey, RefusesOtherTypes) {
     refusesJson(json::array());
     refusesJson(json::array({json::array()}));
     refusesJson("");
-    if (key().type != KeyType::FieldName) refusesJson("no such word");
-    if (key().type != KeyType::FieldName && !isNumeric()) refusesJson(1);
+    if (!takesAnyWord()) refusesJson("no such word");
+    if (key().type != KeyType::FieldName && !isNumeric() && !isColumn()) refusesJson(1);
     if (isNumeric()) refusesJson("1");
 }
 
 TEST_P(EveryKey, TakesNoneAndAutoOnlyWhereItSaysSo) {
-    const bool isWord = key().type == KeyType::FieldName || key().type == KeyType::Choice;
+    const bool isWord = takesAnyWord() || key().type == KeyType::Choice;
     if (isWord) return; // there, they are words like others
     if (key().takesNone)
         EXPECT_EQ(parseStyleValue(key(), "none"), StyleValue(None{}));
@@ -89,6 +95,16 @@ TEST_P(EveryKey, KeepsItsBounds) {
         refusesJson(json::array({key().min * 1.01, 0, 0}));
         EXPECT_EQ(parseStyleValue(key(), json::array({key().min, 0, key().max})),
                   StyleValue(glm::dvec3(key().min, 0, key().max)));
+    }
+    if (key().type == KeyType::NumberRows) {
+        const json row(std::vector<double>(key().columnNames.size(), 0.5));
+        refusesJson(json(std::vector<json>(key().maxRows + 1, row)));
+        refusesJson(json::array({json(std::vector<double>(key().columnNames.size() + 1, 0.5))}));
+        json beyond = row;
+        beyond.back() = key().max * 1.01;
+        refusesJson(json::array({beyond}));
+        EXPECT_EQ(parseStyleValue(key(), json::array({row})),
+                  StyleValue(NumberTable{{row.get<std::vector<double>>()}}));
     }
     if (!isNumeric()) return;
     ASSERT_LT(key().min, key().max);
@@ -112,9 +128,16 @@ TEST_P(EveryKey, RefusesNumbersThatAreNone) {
         EXPECT_THROW(validateStyleValue(key(), OpacityStops{{0.0, 0.0}, {value, 0.5}}), InvalidInput);
         EXPECT_THROW(validateStyleValue(key(), OpacityStops{{0.0, value}}), InvalidInput);
         EXPECT_THROW(validateStyleValue(key(), ColourStops{{value, Colour{}}}), InvalidInput);
+        EXPECT_THROW(
+            validateStyleValue(key(), NumberTable{{std::vector<double>(
+                                          std::max<std::size_t>(key().columnNames.size(), 1), value)}}),
+            InvalidInput);
     }
-    if (key().type == KeyType::FieldName) return;
-    for (const char* text : {"nan", "inf", "-inf", "infinity", "1e999", "0x10", "1,5", "1 ", "--1"})
+    if (takesAnyWord()) return;
+    for (const char* text : {"nan", "inf", "-inf", "infinity", "1e999", "0x10", "--1"})
+        EXPECT_THROW((void)parseStyleText(key(), text), InvalidInput) << text;
+    if (isColumn()) return; // two numbers there
+    for (const char* text : {"1,5", "1 "})
         EXPECT_THROW((void)parseStyleText(key(), text), InvalidInput) << text;
 }
 
@@ -184,6 +207,50 @@ TEST(StyleKeys, PointsFromJsonAndText) {
     for (int i = 0; i < 257; ++i)
         many.push_back(json::array({i / 256.0, 0.5}));
     EXPECT_THROW((void)parseStyleValue(opacity, many), InvalidInput);
+}
+
+TEST(StyleKeys, RowsOfNumbersFromJsonAndText) {
+    const KeySpec& planes = testKeys().at("clip.planes");
+    const NumberTable two{{{1, 0, 0, 0.5}, {0, 0, -1, -0.25}}};
+    EXPECT_EQ(parseStyleText(planes, "1,0,0,0.5;0,0,-1,-0.25"), StyleValue(two));
+    EXPECT_EQ(parseStyleText(planes, "1, 0, 0, 0.5; 0, 0, -1, -0.25"), StyleValue(two));
+    EXPECT_EQ(parseStyleValue(planes, json::parse("[[1,0,0,0.5],[0,0,-1,-0.25]]")), StyleValue(two));
+    EXPECT_EQ(parseStyleText(planes, styleValueText(two)), StyleValue(two));
+    EXPECT_EQ(parseStyleValue(planes, styleValueToJson(two)), StyleValue(two));
+    const NumberTable one{{{0, 1, 0, 0.5}}};
+    EXPECT_EQ(parseStyleValue(planes, json::array({0, 1, 0, 0.5})), StyleValue(one))
+        << "a single row may be flat";
+    EXPECT_EQ(parseStyleValue(planes, styleValueToJson(one)), StyleValue(one));
+    EXPECT_EQ(parseStyleText(planes, "none"), StyleValue(None{}));
+    for (const char* text :
+         {"1,0,0", "1,0,0,0.5,2", "1,0,0,x", "1,0,0,0.5;", ";", ",,,", "[[1,0,0,0.5],[1,0,0]]"})
+        EXPECT_THROW((void)parseStyleText(planes, text), InvalidInput) << text;
+    const Error error = caught<InvalidInput>([&] { (void)parseStyleText(planes, "1,0,0"); });
+    EXPECT_NE(error.toDo().find("[nx, ny, nz, position]"), std::string::npos) << error.toDo();
+
+    const KeySpec& isovalue = testKeys().at("isovalue");
+    EXPECT_EQ(parseStyleText(isovalue, "0.25,-3"), StyleValue(NumberTable{{{0.25}, {-3.0}}}));
+    EXPECT_EQ(parseStyleValue(isovalue, 7), StyleValue(NumberTable{{{7.0}}}));
+    EXPECT_EQ(styleValueToJson(NumberTable{{{0.25}, {-3.0}}}), json::array({0.25, -3.0}));
+    EXPECT_EQ(parseStyleText(isovalue, "auto"), StyleValue(Automatic{}));
+}
+
+TEST(StyleKeys, ListsOfColours) {
+    const KeySpec& colours = testKeys().at("isosurface.colors");
+    const ColourList two{Colour{{255, 0, 0, 255}}, Colour{{0, 0, 255, 255}}};
+    EXPECT_EQ(parseStyleText(colours, "#ff0000,#0000ff"), StyleValue(two));
+    EXPECT_EQ(parseStyleValue(colours, json::array({"#ff0000", "#0000ff"})), StyleValue(two));
+    EXPECT_EQ(parseStyleText(colours, styleValueText(two)), StyleValue(two));
+    for (const char* text : {"red", "#ff0000,", "#ff000080", "transparent"})
+        EXPECT_THROW((void)parseStyleText(colours, text), InvalidInput) << text;
+}
+
+TEST(StyleKeys, TextsAreKeptAsTheyAre) {
+    const KeySpec& shape = testKeys().at("clip.shape");
+    EXPECT_EQ(parseStyleText(shape, "B1 > 0.4"), StyleValue(std::string("B1 > 0.4")));
+    EXPECT_EQ(parseStyleText(shape, "none"), StyleValue(None{}));
+    for (const std::string& text : {std::string("a\nb"), std::string("\xff\xfe"), std::string(201, 'x')})
+        EXPECT_THROW((void)parseStyleText(shape, text), InvalidInput) << text;
 }
 
 TEST(StyleKeys, IntegersTakeWholeNumbersOnly) {

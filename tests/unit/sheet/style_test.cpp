@@ -188,5 +188,79 @@ TEST(Style, KeysThatDisagreeAreRefused) {
     EXPECT_NO_THROW(requireConsistent(style)) << "the other end is the data's";
 }
 
+TEST(Style, LooksInsideAreTyped) {
+    Workbook workbook = filledWorkbook(1, 1);
+    Sheet& sheet = workbook.sheets[0];
+    sheet.style =
+        parseStyleMap(testKeys(), nlohmann::json{{"technique", "isosurface"},
+                                                 {"isovalue", {0.5, -0.5}},
+                                                 {"isosurface.mirror", "on"},
+                                                 {"isosurface.colors", {"#ff0000"}},
+                                                 {"isosurface.opacity", {1, 0.25}},
+                                                 {"isosurface.colorBy", "B1"},
+                                                 {"clip.planes", {{1, 0, 0, 0.5}, {0, 2, 0, 0.1}}},
+                                                 {"clip.box", {0, 1, 0.25, 0.75, 0.5, 1}},
+                                                 {"clip.units", "world"},
+                                                 {"clip.shape", "torus"},
+                                                 {"clip.mode", "probe"},
+                                                 {"clip.transform", {1, 2, 3, 10, 20, 30, 0.5, 0.6, 0.7}},
+                                                 {"shading.model", "phong"},
+                                                 {"shading.gradient", "onthefly"},
+                                                 {"light.direction", {{0, 1, 1}}},
+                                                 {"light.frame", "world"},
+                                                 {"texture.format", "half"},
+                                                 {"probe.opacity", 0.3}});
+    const TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
+    EXPECT_EQ(style.technique, Technique::Isosurface);
+    EXPECT_EQ(style.isosurface.values, (std::vector<double>{0.5, -0.5}));
+    EXPECT_TRUE(style.isosurface.mirror);
+    EXPECT_EQ(style.isosurface.colours.size(), 1U);
+    EXPECT_EQ(style.isosurface.opacities, (std::vector<double>{1.0, 0.25}));
+    EXPECT_EQ(style.isosurface.colourBy, "B1");
+    ASSERT_EQ(style.clip.planes.size(), 2U);
+    EXPECT_EQ(style.clip.planes[1], (ClipStyle::Plane{{0, 2, 0}, 0.1}));
+    ASSERT_TRUE(style.clip.box.has_value());
+    EXPECT_EQ(style.clip.box->low, glm::dvec3(0, 0.25, 0.5));
+    EXPECT_EQ(style.clip.box->high, glm::dvec3(1, 0.75, 1));
+    EXPECT_EQ(style.clip.units, ClipUnits::World);
+    EXPECT_EQ(style.clip.shape, "torus");
+    EXPECT_EQ(style.clip.mode, ClipMode::Probe);
+    EXPECT_EQ(style.clip.transform.rotationDegrees, glm::dvec3(10, 20, 30));
+    EXPECT_EQ(style.clip.transform.scale, glm::dvec3(0.5, 0.6, 0.7));
+    EXPECT_EQ(style.shading.model, ShadingModel::Phong);
+    EXPECT_EQ(style.shading.gradient, GradientSource::OnTheFly);
+    EXPECT_EQ(style.light.directions, (std::vector<glm::dvec3>{{0, 1, 1}}));
+    EXPECT_EQ(style.light.frame, LightFrame::World);
+    EXPECT_EQ(style.textureFormat, TextureFormat::Half);
+    EXPECT_EQ(style.probeOpacity, std::optional<double>(0.3));
+
+    const TypedStyle initial = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
+    EXPECT_TRUE(initial.isosurface.values.empty()) << "auto";
+    EXPECT_EQ(initial.shading.model, ShadingModel::Auto);
+    EXPECT_EQ(initial.clip, ClipStyle{});
+}
+
+std::string refusedField(const TypedStyle& style) {
+    return caught<InvalidInput>([&] { requireConsistent(style); }).field();
+}
+
+TEST(Style, DegenerateClipsAndLightsAreRefused) {
+    const TypedStyle initial = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
+    TypedStyle style = initial;
+    style.clip.planes = {{glm::dvec3(0.0), 0.5}};
+    EXPECT_EQ(refusedField(style), "clip.planes");
+    style.clip.planes = {{glm::dvec3(1e300), 0.5}};
+    EXPECT_EQ(refusedField(style), "clip.planes");
+    style = initial;
+    style.clip.box = ClipStyle::Box{glm::dvec3(0.5), glm::dvec3(1.0, 0.5, 1.0)};
+    EXPECT_EQ(refusedField(style), "clip.box");
+    style = initial;
+    style.clip.transform.scale.y = 0.0;
+    EXPECT_EQ(refusedField(style), "clip.transform");
+    style = initial;
+    style.light.directions = {glm::dvec3(0.0)};
+    EXPECT_EQ(refusedField(style), "light.direction");
+}
+
 } // namespace
 } // namespace voxsheet::sheet

@@ -1,0 +1,98 @@
+// Keys that look inside a volume: isosurfaces, clipping, light.
+#include "sheet/style_key_builders.h"
+
+namespace voxsheet::sheet {
+
+namespace {
+
+constexpr double kLargest = 1e300;
+
+} // namespace
+
+void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Isosurface";
+    const auto add = [&](KeySpec key) { keys.push_back(when(std::move(key), "technique", {"isosurface"})); };
+    add(withAuto(numberRows(
+        "isovalue", {{"value"}, 1, 8, -kLargest, kLargest}, Automatic{}, group,
+        "Values whose surfaces are shown; auto: chosen from the data, one on each side of 0 if signed.")));
+    add(choice("isosurface.mirror", {"off", "on"}, "off", group,
+               "Shows every isovalue v also as -v: one control for both signs."));
+    KeySpec colours = typed("isosurface.colors", KeyType::Colours, Automatic{}, group, "swatches",
+                            "ColourList of the surfaces in the order of the isovalues, the last one for all "
+                            "that follow; auto: those of the "
+                            "transfer function.");
+    add(withAuto(std::move(colours)));
+    add(numberRows(
+        "isosurface.opacity", {{"opacity"}, 1, 8, 0.0, 1.0}, NumberTable{{{1.0}}}, group,
+        "Opacities of the surfaces in the order of the isovalues, the last one for all that follow."));
+    add(withNone(typed("isosurface.colorBy", KeyType::Text, None{}, group, "text",
+                       "Another cell (B1) or dataset whose values at the same place colour the surfaces.")));
+    add(choice("isosurface.caps", {"off", "on"}, "off", group,
+               "Closes surfaces that a clip opens, with the transfer function's colours on the cut."));
+    add(choice(
+        "isosurface.method", {"refined", "alphatest"}, "refined", group,
+        "Crossings found and refined, or, for comparison, the plain test per sample, which leaves gaps."));
+}
+
+void addClipKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Clip";
+    keys.push_back(withNone(
+        numberRows("clip.planes", {{"nx", "ny", "nz", "position"}, 1, 8, -kLargest, kLargest}, None{}, group,
+                   "Planes by normal (world axes) and position; what lies beyond each along its normal is "
+                   "kept. Position: 0 to 1 through "
+                   "the box along the normal, or world units from the origin (clip.units).")));
+    keys.push_back(withNone(numberRows(
+        "clip.box", {{"x0", "x1", "y0", "y1", "z0", "z1"}, 1, 1, -kLargest, kLargest}, None{}, group,
+        "A box whose inside is kept: fractions along the volume's own axes, or world coordinates "
+        "(clip.units).")));
+    keys.push_back(choice("clip.units", {"fraction", "world"}, "fraction", group,
+                          "Of planes, box and shape: fractions of the cell's own box, so that different "
+                          "volumes can be linked, or "
+                          "world units."));
+    KeySpec shape =
+        withNone(typed("clip.shape", KeyType::Text, None{}, group, "text",
+                       "A clip object: sphere, ellipsoid, box, cylinder, torus; the dataset of a closed mesh "
+                       "(STL, PLY, OBJ); or where "
+                       "another volume compares with a number, as in B1 > 0.4 or 'run 2' <= -1."));
+    shape.suggestions = {"sphere", "ellipsoid", "box", "cylinder", "torus"};
+    keys.push_back(std::move(shape));
+    keys.push_back(choice("clip.mode", {"probe", "clip"}, "clip", group,
+                          "Keeps the inside of the clip object (probe) or its outside (clip)."));
+    keys.push_back(
+        choice("clip.representation", {"distance", "binary"}, "distance", group,
+               "The clip object as signed distances, or, for comparison, as inside or outside per voxel."));
+    keys.push_back(numberRows(
+        "clip.transform", {{"tx", "ty", "tz", "rx", "ry", "rz", "sx", "sy", "sz"}, 1, 1, -kLargest, kLargest},
+        NumberTable{{{0, 0, 0, 0, 0, 0, 1, 1, 1}}}, group,
+        "Moves the clip object: scale, then rotation about x, y and z in degrees, then translation (in half "
+        "the shortest edge "
+        "of the box, or world units)."));
+}
+
+void addLightKeys(std::vector<KeySpec>& keys) {
+    const std::string shading = "Shading";
+    keys.push_back(
+        withAuto(typed("shading.model", KeyType::Choice, Automatic{}, shading, "select",
+                       "Light on what is drawn (Phong) or none; auto: Phong for isosurfaces, else none.")));
+    keys.back().choices = {"none", "phong"};
+    keys.push_back(withAuto(typed(
+        "shading.gradient", KeyType::Choice, Automatic{}, shading, "select",
+        "Normals from a gradient texture (8 bytes a voxel) or from six taps on the fly; auto: the texture "
+        "for volumes, on the fly for isosurfaces.")));
+    keys.back().choices = {"texture", "onthefly"};
+    keys.push_back(number("shading.ambient", "", 0, 1, 0.25, shading, "Light from everywhere."));
+    keys.push_back(number("shading.diffuse", "", 0, 1, 0.75, shading, "Light that is scattered evenly."));
+    keys.push_back(number("shading.specular", "", 0, 1, 0.25, shading, "Highlights."));
+    keys.push_back(
+        number("shading.shininess", "", 1, 1000, 24.0, shading, "How small and sharp highlights are."));
+    const std::string light = "Light";
+    keys.push_back(number("light.head", "", 0, 1, 1.0, light, "Intensity of the light at the eye."));
+    keys.push_back(withNone(numberRows("light.direction", {{"x", "y", "z"}, 1, 4, -kLargest, kLargest},
+                                       None{}, light, "Directions towards directional lights.")));
+    keys.push_back(
+        choice("light.frame", {"view", "world"}, "view", light,
+               "Directional lights stay with the viewer (x right, y up, z to the eye) or with the world."));
+    keys.push_back(number("light.intensity", "", 0, 1, 1.0, light, "Intensity of each directional light."));
+}
+
+} // namespace voxsheet::sheet
