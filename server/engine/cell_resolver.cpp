@@ -2,6 +2,8 @@
 
 #include "base/errors.h"
 #include "engine/axis_ticks.h"
+#include "engine/clip_resolver.h"
+#include "engine/shading_resolver.h"
 #include "sheet/camera.h"
 
 #include <algorithm>
@@ -83,6 +85,22 @@ RangeChoice chooseRange(const sheet::RangeStyle& range, const ColourMap* map, co
     if (map != nullptr && map->kind == ColourMapKind::Ct)
         return {{map->window.first, map->window.second}, false};
     return {defaultWindow(summary), signedData};
+}
+
+Technique drawnTechnique(sheet::Technique technique) {
+    switch (technique) {
+    case sheet::Technique::Slices:
+        return Technique::Slices;
+    case sheet::Technique::Mip:
+        return Technique::Mip;
+    case sheet::Technique::Surface:
+        return Technique::Surface;
+    case sheet::Technique::Isosurface:
+        return Technique::Isosurface;
+    case sheet::Technique::Raycast:
+        break;
+    }
+    return Technique::Raycast;
 }
 
 } // namespace
@@ -224,29 +242,17 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.field = shown.field;
     spec.step = shown.step;
     spec.level = std::clamp(std::max(level, static_cast<int>(style.quality)), 0, meta.levels() - 1);
-    switch (style.technique) {
-    case sheet::Technique::Slices:
-        spec.technique = Technique::Slices;
-        break;
-    case sheet::Technique::Raycast:
-        spec.technique = Technique::Raycast;
-        break;
-    case sheet::Technique::Mip:
-        spec.technique = Technique::Mip;
-        break;
-    case sheet::Technique::Surface:
-        spec.technique = Technique::Surface;
-        break;
-    case sheet::Technique::Isosurface:
-        spec.technique = Technique::Isosurface;
-        break;
-    }
+    spec.technique = drawnTechnique(style.technique);
     spec.camera = resolveCamera(style.camera, meta.grid, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
     spec.background = glm::vec4(opaqueOf(style.background));
     spec.sizePixels = sizePixels;
+    spec.clip.planes = resolveClipPlanes(style.clip, meta.grid);
+    spec.shading = resolveShading(style, spec.camera);
+    spec.floatTexels =
+        style.textureFormat == sheet::TextureFormat::Half ? FloatTexels::Half : FloatTexels::Full;
     return spec;
 }
 

@@ -51,6 +51,8 @@ struct FieldAndStep {
 [[nodiscard]] CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid,
                                        glm::ivec2 sizePixels);
 
+/// All but what other volumes decide: the clip object, and the isosurfaces (clip_resolver.h,
+/// isosurface_resolver.h).
 /// \param level  smallest level of detail asked for; the style's quality may ask for a coarser one
 [[nodiscard]] TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta,
                                    const FieldAndStep& shown, std::shared_ptr<const TransferTable> table,

@@ -97,6 +97,11 @@ double atShare(const std::vector<double>& sorted, double share) {
     return sorted[std::min(index, sorted.size() - 1)];
 }
 
+/// A heavy tail pulls Otsu's threshold far out; at least the outer tenth of the samples should be seen.
+double structureBegin(const std::vector<double>& sorted) {
+    return std::min(otsuThreshold(sorted), atShare(sorted, 0.9));
+}
+
 struct Ramp {
     double begin = 0.0; ///< distance at which opacity leaves 0
     double end = 1.0;   ///< distance at which it is full
@@ -245,9 +250,8 @@ std::vector<OpacityPoint> defaultOpacity(const ValueSummary& summary, const Tran
     if (summary.quantiles.empty()) return {{0.0, 0.0}, {1.0, 0.0}};
     const BackgroundDistance distance = distanceFrom(summary, function, signedData);
     const std::vector<double> distances = sortedDistances(summary, function, distance);
-    // A heavy tail pulls Otsu's threshold far out; at least the outer tenth of the samples should be seen.
     Ramp ramp;
-    ramp.begin = std::min(otsuThreshold(distances), atShare(distances, 0.9));
+    ramp.begin = structureBegin(distances);
     ramp.end = std::max(atShare(distances, 0.99), ramp.begin + 0.02);
     return rampPoints(distance, ramp, heightFor(distances, ramp, pathUnitLengths));
 }
@@ -257,6 +261,22 @@ std::vector<OpacityPoint> defaultProjectionOpacity(const ValueSummary& summary,
     if (summary.quantiles.empty()) return {{0.0, 0.0}, {1.0, 0.0}};
     const BackgroundDistance distance = distanceFrom(summary, function, signedData);
     return rampPoints(distance, Ramp{0.02, 0.4}, 1.0);
+}
+
+std::vector<double> defaultIsovalues(const ValueSummary& summary) {
+    const ValueWindow window = defaultWindow(summary);
+    if (opensDiverging(summary)) return {0.25 * window.high, -0.25 * window.high};
+    if (summary.quantiles.empty()) return {(window.low + window.high) / 2.0};
+    TransferFunction function;
+    function.low = window.low;
+    function.high = window.high;
+    const BackgroundDistance distance = distanceFrom(summary, function, false);
+    const std::vector<double> distances = sortedDistances(summary, function, distance);
+    // Nothing but background among nine tenths of the samples: halfway to the largest distance there is.
+    double begin = structureBegin(distances);
+    if (begin <= 0.0) begin = distances.back() > 0.0 ? distances.back() / 2.0 : 0.5;
+    const double side = distance.above ? 1.0 : -1.0;
+    return {transferValue(function, distance.centre + side * begin * distance.reach())};
 }
 
 } // namespace voxsheet::engine

@@ -35,9 +35,14 @@ public:
         add(static_cast<double>(text.size()));
         append(text.data(), text.size());
     }
-    void add(const glm::vec4& v) {
-        for (int i = 0; i < 4; ++i)
+    template <glm::length_t N, typename T>
+    void add(const glm::vec<N, T>& v) {
+        for (glm::length_t i = 0; i < N; ++i)
             add(static_cast<double>(v[i]));
+    }
+    void add(const glm::dmat4& matrix) {
+        for (int column = 0; column < 4; ++column)
+            add(matrix[column]);
     }
     void append(const void* data, std::size_t bytes) {
         const auto* begin = static_cast<const char*>(data);
@@ -49,17 +54,104 @@ private:
     std::vector<char> bytes_;
 };
 
-void addTable(Collector& collector, const TransferTable& table) {
+enum class TableUse { ColoursAndOpacities, Colours };
+
+void addTable(Collector& collector, const TransferTable& table, TableUse use) {
     collector.add(table.low);
     collector.add(table.high);
     collector.add(static_cast<double>(table.scale));
     collector.add(table.symLogThreshold);
-    collector.add(table.below);
-    collector.add(table.above);
     collector.add(table.nan);
-    const XXH128_hash_t entries =
-        XXH3_128bits(table.entries.data(), table.entries.size() * sizeof(glm::vec4));
-    collector.add(hex(entries));
+    if (use == TableUse::ColoursAndOpacities) {
+        collector.add(table.below);
+        collector.add(table.above);
+        const XXH128_hash_t entries =
+            XXH3_128bits(table.entries.data(), table.entries.size() * sizeof(glm::vec4));
+        collector.add(hex(entries));
+        return;
+    }
+    collector.add(glm::vec3(table.below));
+    collector.add(glm::vec3(table.above));
+    std::vector<glm::vec3> colours(table.entries.begin(), table.entries.end());
+    collector.add(hex(XXH3_128bits(colours.data(), colours.size() * sizeof(glm::vec3))));
+}
+
+void addCamera(Collector& collector, const CameraSpec& camera) {
+    collector.add(camera.viewFromWorld);
+    collector.add(static_cast<double>(camera.projection));
+    // The member that the projection does not use decides nothing.
+    const bool perspective = camera.projection == Projection::Perspective;
+    collector.add(perspective ? camera.fovYDegrees : camera.heightWorld);
+}
+
+void addClip(Collector& collector, const ClipSpec& clip) {
+    collector.add(static_cast<double>(clip.planes.size()));
+    for (const ClipPlane& plane : clip.planes) {
+        collector.add(plane.normal);
+        collector.add(plane.offset);
+    }
+    collector.add(clip.object ? 1.0 : 0.0);
+    if (!clip.object) return;
+    collector.add(clip.object->dataset);
+    collector.add(clip.object->objectFromWorld);
+    collector.add(static_cast<double>(clip.object->mode));
+    collector.add(clip.object->binary ? 1.0 : 0.0);
+}
+
+void addShading(Collector& collector, const TileSpec& tile) {
+    const ShadingSpec& shading = tile.shading;
+    const bool shaded = shading.enabled && tile.technique != Technique::Mip;
+    collector.add(shaded ? 1.0 : 0.0);
+    if (!shaded) return;
+    // Faces have normals of their own.
+    const bool gradients = tile.technique != Technique::Surface;
+    collector.add(gradients ? static_cast<double>(shading.gradient) : -1.0);
+    for (const double number : {shading.ambient, shading.diffuse, shading.specular, shading.headLight})
+        collector.add(number);
+    collector.add(shading.specular > 0.0 ? shading.shininess : 0.0);
+    collector.add(static_cast<double>(shading.lightsView.size()));
+    for (const glm::dvec3& light : shading.lightsView)
+        collector.add(light);
+    collector.add(shading.lightsView.empty() ? 0.0 : shading.lightIntensity);
+}
+
+void addIsosurface(Collector& collector, const IsosurfaceSpec& isosurface) {
+    collector.add(static_cast<double>(isosurface.surfaces.size()));
+    for (const Isosurface& surface : isosurface.surfaces) {
+        collector.add(surface.value);
+        collector.add(surface.colour);
+    }
+    collector.add(isosurface.colouredBy ? 1.0 : 0.0);
+    if (const auto& colours = isosurface.colouredBy) {
+        collector.add(colours->dataset);
+        collector.add(colours->field);
+        collector.add(colours->step);
+        collector.add(colours->level);
+        addTable(collector, *colours->transfer, TableUse::Colours);
+    }
+    collector.add(isosurface.caps ? 1.0 : 0.0);
+    collector.add(static_cast<double>(isosurface.method));
+}
+
+/// What the technique makes of the transfer table.
+void addColours(Collector& collector, const TileSpec& tile) {
+    switch (tile.technique) {
+    case Technique::Slices:
+    case Technique::Raycast:
+        collector.add(tile.unitLengthWorld);
+        addTable(collector, *tile.transfer, TableUse::ColoursAndOpacities);
+        break;
+    case Technique::Mip: // Opacity as it is, whatever the length.
+        addTable(collector, *tile.transfer, TableUse::ColoursAndOpacities);
+        break;
+    case Technique::Surface:
+        addTable(collector, *tile.transfer, TableUse::Colours);
+        break;
+    case Technique::Isosurface: // Colours of surfaces are their own; only caps show the table's.
+        if (tile.isosurface.caps) addTable(collector, *tile.transfer, TableUse::Colours);
+        addIsosurface(collector, tile.isosurface);
+        break;
+    }
 }
 
 } // namespace
@@ -72,17 +164,12 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
     collector.add(tile.step);
     collector.add(tile.level);
     collector.add(static_cast<double>(tile.technique));
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row)
-            collector.add(tile.camera.viewFromWorld[column][row]);
-    }
-    collector.add(static_cast<double>(tile.camera.projection));
-    // The member that the projection does not use decides nothing.
-    const bool perspective = tile.camera.projection == Projection::Perspective;
-    collector.add(perspective ? tile.camera.fovYDegrees : tile.camera.heightWorld);
-    addTable(collector, *tile.transfer);
-    collector.add(tile.unitLengthWorld);
+    addCamera(collector, tile.camera);
+    addColours(collector, tile);
+    addClip(collector, tile.clip);
+    addShading(collector, tile);
     collector.add(tile.sampleDistanceVoxels);
+    collector.add(static_cast<double>(tile.floatTexels));
     collector.add(tile.background);
     collector.add(tile.sizePixels.x);
     collector.add(tile.sizePixels.y);

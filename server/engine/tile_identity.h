@@ -8,8 +8,8 @@
 
 namespace voxsheet::engine {
 
-/// 32 hex digits: XXH3 (128 bit) over every number of the spec, the whole transfer table, and `environment`
-/// (device, driver, build). Same identity, same pixels.
+/// 32 hex digits: XXH3 (128 bit) over every number of the spec that its technique uses, tables by content,
+/// and `environment` (device, driver, build). Same identity, same pixels.
 [[nodiscard]] std::string tileIdentity(const TileSpec& tile, std::string_view environment);
 
 /// The same hash over any text.

@@ -1,6 +1,7 @@
 #include "engine/tile_maker.h"
 
 #include "base/errors.h"
+#include "engine/isosurface_resolver.h"
 #include "engine/tile_identity.h"
 
 namespace voxsheet::engine {
@@ -17,13 +18,11 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
     look.shown = chooseField(style.field, style.timeStep, *look.meta);
     look.sharedRange = style.range.mode == sheet::RangeMode::Shared;
     const double path = boxPathUnitLengths(look.meta->grid);
-    if (look.sharedRange) {
-        const auto shared = sharedSummary(workbook, sheetIndex, cell, look, contents);
-        look.transfer = resolveTransfer(look.resolved, maps_, *shared, path);
-    } else {
-        const auto own = cache_.summary(*look.meta, look.shown.field, look.shown.step);
-        look.transfer = resolveTransfer(look.resolved, maps_, *own, path);
-    }
+    const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
+                                          : cache_.summary(*look.meta, look.shown.field, look.shown.step);
+    look.transfer = resolveTransfer(look.resolved, maps_, *summary, path);
+    if (style.technique == sheet::Technique::Isosurface)
+        look.isosurface = resolveIsosurface(style.isosurface, look.transfer.function, *summary);
     return look;
 }
 
@@ -103,6 +102,7 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
 void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality) {
     tile.spec = resolveTile(look.resolved.style, *look.meta, look.shown, cache_.table(look.transfer.function),
                             quality.sizePixels, quality.level, quality.sampleDistanceFactor);
+    tile.spec->isosurface = look.isosurface;
     tile.identity = tileIdentity(*tile.spec, environment_);
 }
 

@@ -18,6 +18,7 @@ struct CellLook {
     sheet::ResolvedStyle resolved;
     FieldAndStep shown;
     ResolvedTransfer transfer;
+    IsosurfaceSpec isosurface; ///< empty unless the technique is isosurface
     std::shared_ptr<const DatasetMeta> meta;
     bool sharedRange = false;
 };

@@ -17,6 +17,26 @@ TileSpec tile() {
     return spec;
 }
 
+using Change = std::function<void(TileSpec&)>;
+
+std::set<std::string> identitiesOf(const TileSpec& base, const std::vector<Change>& changes) {
+    std::set<std::string> identities;
+    for (const Change& change : changes) {
+        TileSpec spec = base;
+        change(spec);
+        identities.insert(tileIdentity(spec, "device"));
+    }
+    return identities;
+}
+
+void expectAllDiffer(const TileSpec& base, const std::vector<Change>& changes) {
+    EXPECT_EQ(identitiesOf(base, changes).size(), changes.size());
+}
+
+void expectNoneDiffers(const TileSpec& base, const std::vector<Change>& changes) {
+    EXPECT_EQ(identitiesOf(base, changes), std::set<std::string>{tileIdentity(base, "device")});
+}
+
 TEST(TileIdentity, EqualSpecsHaveEqualIdentitiesWhateverTheirTables) {
     const TileSpec a = tile();
     const TileSpec b = tile();
@@ -33,7 +53,7 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
             spec.transfer = std::make_shared<const TransferTable>(table);
         };
     };
-    const std::vector<std::function<void(TileSpec&)>> changes{
+    const std::vector<Change> changes{
         [](TileSpec&) {},
         [](TileSpec& s) { s.dataset = "e"; },
         [](TileSpec& s) { s.field = 1; },
@@ -47,6 +67,24 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
         [](TileSpec& s) { s.sampleDistanceVoxels = 0.25; },
         [](TileSpec& s) { s.background.w = 0.5F; },
         [](TileSpec& s) { s.sizePixels.y = 255; },
+        [](TileSpec& s) { s.floatTexels = FloatTexels::Half; },
+        [](TileSpec& s) { s.clip.planes = {ClipPlane{}}; },
+        [](TileSpec& s) {
+            s.clip.planes = {ClipPlane{{1.0, 0.0, 0.0}, 0.5}};
+        },
+        [](TileSpec& s) { s.clip.object = ClipObject{}; },
+        [](TileSpec& s) {
+            s.clip.object = ClipObject{"sphere", glm::dmat4(1.0), ClipMode::Clip, false};
+        },
+        [](TileSpec& s) {
+            s.clip.object = ClipObject{"sphere", glm::dmat4(2.0), ClipMode::Clip, false};
+        },
+        [](TileSpec& s) {
+            s.clip.object = ClipObject{"sphere", glm::dmat4(1.0), ClipMode::Probe, false};
+        },
+        [](TileSpec& s) {
+            s.clip.object = ClipObject{"sphere", glm::dmat4(1.0), ClipMode::Clip, true};
+        },
         changedTable([](TransferTable& t) { t.low = -1; }),
         changedTable([](TransferTable& t) { t.high = 2; }),
         changedTable([](TransferTable& t) { t.scale = ValueScale::Log; }),
@@ -56,14 +94,87 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
         changedTable([](TransferTable& t) { t.entries[1].w = 0.9F; }),
         changedTable([](TransferTable& t) { t.entries.push_back(glm::vec4(1.0F)); }),
     };
-    std::set<std::string> identities;
-    for (const auto& change : changes) {
-        TileSpec spec = tile();
-        change(spec);
-        identities.insert(tileIdentity(spec, "device"));
-    }
-    identities.insert(tileIdentity(tile(), "another device"));
-    EXPECT_EQ(identities.size(), changes.size() + 1);
+    expectAllDiffer(tile(), changes);
+    EXPECT_NE(tileIdentity(tile(), "device"), tileIdentity(tile(), "another device"));
+}
+
+TEST(TileIdentity, LightsCountWhereThereIsShading) {
+    TileSpec shaded = tile();
+    shaded.shading.enabled = true;
+    shaded.shading.lightsView = {{0.0, 0.0, 1.0}};
+    expectAllDiffer(shaded, {
+                                [](TileSpec&) {},
+                                [](TileSpec& s) { s.shading.enabled = false; },
+                                [](TileSpec& s) { s.shading.gradient = GradientSource::Texture; },
+                                [](TileSpec& s) { s.shading.ambient = 0.5; },
+                                [](TileSpec& s) { s.shading.diffuse = 0.5; },
+                                [](TileSpec& s) { s.shading.specular = 0.5; },
+                                [](TileSpec& s) { s.shading.shininess = 5; },
+                                [](TileSpec& s) { s.shading.headLight = 0.5; },
+                                [](TileSpec& s) { s.shading.lightIntensity = 0.5; },
+                                [](TileSpec& s) { s.shading.lightsView[0].x = 1; },
+                                [](TileSpec& s) { s.shading.lightsView.clear(); },
+                            });
+    expectNoneDiffers(tile(), {
+                                  [](TileSpec& s) { s.shading.ambient = 0.5; },
+                                  [](TileSpec& s) {
+                                      s.shading.lightsView = {{0.0, 0.0, 1.0}};
+                                  },
+                                  [](TileSpec& s) { s.shading.gradient = GradientSource::Texture; },
+                              });
+    TileSpec projection = shaded;
+    projection.technique = Technique::Mip;
+    expectNoneDiffers(projection, {[](TileSpec& s) { s.shading.enabled = false; }});
+}
+
+TEST(TileIdentity, IsosurfacesCountWhereTheyAreShown) {
+    const auto colouredBy = [](float red, float opacity) {
+        return [red, opacity](TileSpec& s) {
+            TransferTable table = *s.transfer;
+            table.entries[0] = {red, 0.0F, 0.0F, opacity};
+            s.isosurface.colouredBy =
+                ColourVolume{"other", 0, 0, 0, std::make_shared<const TransferTable>(table)};
+        };
+    };
+    TileSpec surfaces = tile();
+    surfaces.technique = Technique::Isosurface;
+    surfaces.isosurface.surfaces = {Isosurface{0.5, glm::vec4(1.0F)}};
+    expectAllDiffer(surfaces, {
+                                  [](TileSpec&) {},
+                                  [](TileSpec& s) { s.isosurface.surfaces.clear(); },
+                                  [](TileSpec& s) { s.isosurface.surfaces[0].value = 1; },
+                                  [](TileSpec& s) { s.isosurface.surfaces[0].colour.w = 0.5F; },
+                                  [](TileSpec& s) { s.isosurface.surfaces.push_back({}); },
+                                  [](TileSpec& s) { s.isosurface.caps = true; },
+                                  [](TileSpec& s) { s.isosurface.method = IsosurfaceMethod::AlphaTest; },
+                                  colouredBy(0.1F, 0.0F),
+                                  colouredBy(0.2F, 0.0F),
+                              });
+    TileSpec a = surfaces;
+    TileSpec b = surfaces;
+    colouredBy(0.1F, 0.0F)(a);
+    colouredBy(0.1F, 0.7F)(b);
+    EXPECT_EQ(tileIdentity(a, "d"), tileIdentity(b, "d")) << "its opacities are not used";
+    TileSpec rays = surfaces;
+    rays.technique = Technique::Raycast;
+    expectNoneDiffers(rays, {[](TileSpec& s) { s.isosurface = {}; }});
+}
+
+TEST(TileIdentity, WhatTheTechniqueDoesNotUseDoesNotCount) {
+    const Change opacity = [](TileSpec& s) {
+        TransferTable table = *s.transfer;
+        table.entries[1].w = 0.3F;
+        s.transfer = std::make_shared<const TransferTable>(table);
+    };
+    const Change unit = [](TileSpec& s) { s.unitLengthWorld = 7; };
+    TileSpec spec = tile();
+    spec.technique = Technique::Surface;
+    expectNoneDiffers(spec, {opacity, unit});
+    spec.technique = Technique::Isosurface;
+    expectNoneDiffers(spec, {opacity, unit});
+    spec.technique = Technique::Mip;
+    expectNoneDiffers(spec, {unit});
+    expectAllDiffer(spec, {[](TileSpec&) {}, opacity});
 }
 
 TEST(TileIdentity, WhatTheProjectionDoesNotUseDoesNotCount) {

@@ -1,0 +1,64 @@
+#include "engine/isosurface_resolver.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <string>
+
+namespace voxsheet::engine {
+
+namespace {
+
+/// The last one repeats.
+template <typename T>
+const T& repeating(const std::vector<T>& list, std::size_t index) {
+    return list[std::min(index, list.size() - 1)];
+}
+
+bool hasValue(const std::vector<Isosurface>& surfaces, double value) {
+    return std::any_of(surfaces.begin(), surfaces.end(),
+                       [value](const Isosurface& each) { return each.value == value; });
+}
+
+glm::vec4 surfaceColour(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
+                        std::size_t surface, double value, double opacity) {
+    if (style.colours.empty())
+        return glm::vec4(glm::dvec4(glm::dvec3(evaluateTransfer(function, value)), opacity));
+    const sheet::Colour& colour = repeating(style.colours, surface);
+    return glm::vec4(glm::dvec4(colour.red(), colour.green(), colour.blue(), colour.alpha() * opacity));
+}
+
+} // namespace
+
+std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
+                                        const ValueSummary& summary) {
+    const std::vector<double> values = style.values.empty() ? defaultIsovalues(summary) : style.values;
+    std::vector<Isosurface> surfaces;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double opacity = style.opacities.empty() ? 1.0 : repeating(style.opacities, i);
+        for (const double value : {values[i], style.mirror ? -values[i] : values[i]}) {
+            if (hasValue(surfaces, value)) continue;
+            surfaces.push_back({value, surfaceColour(style, function, surfaces.size(), value, opacity)});
+        }
+    }
+    if (surfaces.size() > kMaxIsosurfaces) {
+        throw InvalidInput("isosurfaces",
+                           "with their mirror images they are " + std::to_string(surfaces.size()) +
+                               ", and a picture shows at most " + std::to_string(kMaxIsosurfaces),
+                           "give fewer values, or switch isosurface.mirror off")
+            .withField(style.mirror ? "isosurface.mirror" : "isovalue");
+    }
+    return surfaces;
+}
+
+IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
+                                 const ValueSummary& summary) {
+    IsosurfaceSpec spec;
+    spec.surfaces = resolveSurfaces(style, function, summary);
+    spec.caps = style.caps;
+    spec.method = style.method == sheet::IsosurfaceMethod::AlphaTest ? IsosurfaceMethod::AlphaTest
+                                                                     : IsosurfaceMethod::Refined;
+    return spec;
+}
+
+} // namespace voxsheet::engine

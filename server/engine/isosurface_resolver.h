@@ -1,0 +1,27 @@
+// From a cell's isosurface style to surfaces with values and colours.
+#pragma once
+
+#include "engine/default_look.h"
+#include "sheet/typed_style.h"
+#include "stages/isosurface_spec.h"
+#include "volume/transfer_function.h"
+
+#include <vector>
+
+namespace voxsheet::engine {
+
+/// The surfaces of isovalue in their order, each followed by its mirror image where
+/// isosurface.mirror asks for it; a value that occurs again is left out. Colours go by surface, opacities by
+/// value (a mirror image has its value's). Without values of its own: defaultIsovalues(). Without colours:
+/// the transfer function's at the value.
+/// \param summary  as the cell's transfer function was made from: cells that share a range share isovalues
+/// Throws InvalidInput (field isovalue or isosurface.mirror) if there are more than kMaxIsosurfaces.
+[[nodiscard]] std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style,
+                                                      const TransferFunction& function,
+                                                      const ValueSummary& summary);
+
+/// All but what they are coloured by.
+[[nodiscard]] IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style,
+                                               const TransferFunction& function, const ValueSummary& summary);
+
+} // namespace voxsheet::engine
