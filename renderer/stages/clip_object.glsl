@@ -9,12 +9,13 @@ layout(binding = 3) uniform sampler3D clipDistances;
 uniform mat4 clipFromTexture;    // texture frame of the volume to that of the distances
 uniform mat3 objectFromTexture;  // to the world of the distances; its linear part
 uniform vec2 measureFromTexel;   // measure = texel * x + y: a distance, >= 0 where the volume is kept
-uniform float nearestSampleSlack; // how far the nearest sample may differ from the interpolant
+uniform float nearestSampleSlack; // how far interpolants, or nearest samples, may differ from true distances, twice
 uniform mat3 viewFromClipGradient;
 uniform vec3 clipTexelSize; // 1 / samples per axis
 
-// Distances of interpolants change by at most this much per unit of length (sqrt 3 in the worst of directions).
-const float kSteepest = 1.8;
+// How much an interpolated distance can change over a length: true distances change by at most that length, and an
+// interpolant lies within a sample's spacing of them; computed distances are allowed a tenth more.
+float largestChange(float length) { return 1.1 * length + nearestSampleSlack; }
 
 // The ray in the frame of the distances.
 struct ClipRay {
@@ -46,7 +47,7 @@ float keptMeasure(ClipRay ray, float depth) {
 // For all depths of [begin, end] at once, with one look-up: 1 kept, -1 removed, 0 not known.
 int clipVerdict(ClipRay ray, float begin, float end) {
     float measure = keptMeasure(ray, 0.5 * (begin + end));
-    float reach = kSteepest * 0.5 * (end - begin) * ray.lengthPerDepth + nearestSampleSlack;
+    float reach = largestChange(0.5 * (end - begin) * ray.lengthPerDepth);
     return measure > reach ? 1 : measure < -reach ? -1 : 0;
 }
 

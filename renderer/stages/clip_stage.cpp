@@ -50,7 +50,9 @@ void validateClip(const ClipSpec& clip) {
 gpu::ShaderDefines ClipStage::defines(const ClipSpec& clip, const ResidentVolume* object, bool filterFloats) {
     const char* kind = object == nullptr ? "0" : clip.object->binary ? "2" : "1";
     const bool filter = object != nullptr && filterFloats && object->texture->internalFormat() == GL_R32F;
-    return {{"CLIP_OBJECT", kind}, {"CLIP_FILTER", filter ? "1" : "0"}};
+    return {{"CLIP_PLANES", clip.planes.empty() ? "0" : "1"},
+            {"CLIP_OBJECT", kind},
+            {"CLIP_FILTER", filter ? "1" : "0"}};
 }
 
 void ClipStage::bind(const gpu::Program& program, const TileSpec& tile, const Grid& grid,
@@ -68,9 +70,9 @@ void ClipStage::bind(const gpu::Program& program, const TileSpec& tile, const Gr
     const double sign = clip.mode == ClipMode::Probe ? -1.0 : 1.0;
     program.set("measureFromTexel", glm::vec2(sign * object->valueScale, sign * object->valueOffset));
     program.set("clipTexelSize", 1.0F / glm::vec3(object->dims));
-    // The nearest sample lies at most half a voxel's diagonal away.
-    const double diagonal = glm::length(spacingWorld(objectGrid));
-    program.set("nearestSampleSlack", clip.binary ? static_cast<float>(0.5 * 1.8 * diagonal) : 0.0F);
+    // Interpolants and nearest samples of true distances are off by at most half a voxel's diagonal, at both
+    // ends.
+    program.set("nearestSampleSlack", static_cast<float>(glm::length(spacingWorld(objectGrid))));
     const auto viewFromObject =
         glm::dmat3(tile.camera.viewFromWorld) * glm::inverse(glm::dmat3(clip.objectFromWorld));
     program.set("viewFromClipGradient",

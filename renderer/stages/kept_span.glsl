@@ -1,4 +1,5 @@
 // The part of a ray that the box and the clip planes leave (stages/clip_stage.h): convex, so one interval.
+//   CLIP_PLANES  1: there are clip planes
 #include "stages/box.glsl"
 
 const int kMaxClipPlanes = 16;
@@ -14,6 +15,7 @@ struct KeptSpan {
 KeptSpan keptSpan(Ray ray) {
     vec2 span = boxSpan(ray);
     KeptSpan kept = KeptSpan(span.x, span.y, -1);
+#if CLIP_PLANES
     for (int i = 0; i < clipPlaneCount; ++i) {
         float advance = dot(clipPlanes[i].xyz, ray.direction);
         float beyond = dot(clipPlanes[i].xyz, ray.origin) + clipPlanes[i].w;
@@ -29,5 +31,6 @@ KeptSpan keptSpan(Ray ray) {
             kept.end = kept.begin;
         }
     }
+#endif
     return kept;
 }

@@ -66,6 +66,7 @@ gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& requ
     defines.insert(defines.end(), colours.begin(), colours.end());
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels)));
     defines.emplace_back("CAPS", tile.isosurface.caps ? "1" : "0");
+    defines.emplace_back("SURFACES", std::to_string(tile.isosurface.surfaces.size()));
     defines.emplace_back("ALPHA_TEST", tile.isosurface.method == IsosurfaceMethod::AlphaTest ? "1" : "0");
     return defines;
 }
@@ -101,7 +102,6 @@ void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
     if (stages.skipEmptySpace) stages.emptySpace.bindCrossed(program, values, volume);
     ColourVolumeStage::bind(program, tile.isosurface.colouredBy, volume.meta->grid, volumes.colours,
                             stages.classification);
-    program.set("surfaceCount", static_cast<int>(surfaces.size()));
     program.set("surfaceTexels", texels);
     program.set("surfaceColours", colours);
     program.set("tolerance", static_cast<float>(plainTestTolerance(volume)));

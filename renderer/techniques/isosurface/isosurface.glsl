@@ -3,6 +3,7 @@
 //   SKIP_EMPTY     1: stretches without a crossing are left out
 //   CAPS           1: cuts close what they open
 //   ALPHA_TEST     1: the plain test, with its gaps
+//   SURFACES       how many there are
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
@@ -16,7 +17,6 @@ layout(binding = 2) uniform usampler3D occupiedCells;
 uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 uniform float sampleDistanceVoxels;
 const int kMaxSurfaces = 8;
-uniform int surfaceCount;
 uniform vec4 surfaceTexels[kMaxSurfaces];  // x: the value as a texel; rising
 uniform vec4 surfaceColours[kMaxSurfaces]; // not premultiplied
 uniform float tolerance;                   // of the plain test, in texels
@@ -120,88 +120,143 @@ void showEntryCap(inout Light light, Path path) {
 #endif
 }
 
-#if CLIP_OBJECT
-void showObjectCap(inout Light light, Path path, float begin, float end, float measureBegin, float measureEnd) {
-    if (measureBegin >= 0.0 || measureEnd < 0.0) return;
-    float depth = clipCrossing(begin, end, measureBegin, measureEnd);
-    showCap(light, path, depth, clipSurfaceNormal(path.clip.origin + depth * path.clip.direction));
-}
-#endif
 #endif
 
-// The crossings between two depths, in the order in which the ray meets them.
-void showCrossings(inout Light light, Path path, float begin, float end, float atBegin, float atEnd) {
-    bool rising = atEnd > atBegin;
-    for (int i = 0; i < surfaceCount; ++i) {
-        int surface = rising ? i : surfaceCount - 1 - i;
-        float texel = surfaceTexels[surface].x;
-        bool below = atBegin < texel;
-        if (below == (atEnd < texel) || isnan(atBegin) || isnan(atEnd)) continue;
-        showCrossing(light, path, surface, refinedDepth(path, texel, begin, end, atBegin, atEnd));
-        if (light.transmittance <= kOpaque) return;
-    }
+// How many surfaces lie at or below a texel, in the order of surfaceTexels; -1: no value.
+int rankOf(float texel) {
+    int rank = 0;
+    for (int i = 0; i < SURFACES; ++i) rank += texel >= surfaceTexels[i].x ? 1 : 0;
+    return isnan(texel) ? -1 : rank;
 }
 
 #if ALPHA_TEST
 void march(inout Light light, Path path) {
     for (float depth = path.span.begin + 0.5 * path.spacing; depth < path.span.end && light.transmittance > kOpaque; depth += path.spacing) {
         float texel = texelAtDepth(path, depth);
-        for (int i = 0; i < surfaceCount; ++i)
+        for (int i = 0; i < SURFACES; ++i)
             if (abs(texel - surfaceTexels[i].x) <= tolerance) showCrossing(light, path, i, depth);
     }
 }
 #else
+// Where a ray has got to: the step from `begin` on is looked at next.
+struct March {
+    int steps;   // along the whole ray
+    int chunks;
+    int chunk;
+    int step;    // of the chunk
+    bool entered; // the members below hold for this chunk
+    float begin;
+    float atBegin; // texels
+    float end;
+    float atEnd;
+    int rankBegin;
+    int rankEnd;
+#if CAPS && CLIP_OBJECT
+    float measureBegin;
+    float measureEnd;
+#endif
+};
+
+float chunkBegin(Path path, int chunk) { return path.span.begin + float(chunk * CHUNK_SAMPLES) * path.spacing; }
+
+// Whether the chunk can hold anything to show.
+bool isWorthEntering(Path path, March at) {
+    float begin = chunkBegin(path, at.chunk);
+    float length = float(CHUNK_SAMPLES) * path.spacing;
+    bool crossed = mayCross(path, begin + 0.5 * length);
+#if CLIP_OBJECT
+    int verdict = clipVerdict(path.clip, begin, min(begin + length, path.span.end));
+    return verdict >= 0 && (crossed || (verdict == 0 && bool(CAPS)));
+#else
+    return crossed;
+#endif
+}
+
+bool hasEvent(March at) {
+#if CAPS && CLIP_OBJECT
+    if (at.measureBegin < 0.0 && at.measureEnd >= 0.0) return true;
+#endif
+    return at.rankBegin != at.rankEnd && at.rankBegin >= 0 && at.rankEnd >= 0;
+}
+
+void toNextStep(inout March at) {
+    ++at.step;
+    at.begin = at.end;
+    at.atBegin = at.atEnd;
+    at.rankBegin = at.rankEnd;
+#if CAPS && CLIP_OBJECT
+    at.measureBegin = at.measureEnd;
+#endif
+}
+
+void enter(Path path, inout March at) {
+    at.entered = true;
+    at.step = 0;
+    at.begin = chunkBegin(path, at.chunk);
+    at.atBegin = texelAtDepth(path, at.begin);
+    at.rankBegin = rankOf(at.atBegin);
+#if CAPS && CLIP_OBJECT
+    at.measureBegin = keptMeasure(path.clip, at.begin);
+#endif
+}
+
+// Goes on to the next step in which something happens. All loops and no branches around costly code: where a driver runs
+// SIMD groups with masks, code in a branch that no ray takes still costs its time.
+bool seekEvent(Path path, inout March at) {
+    bool found = at.entered && hasEvent(at);
+    while (!found && at.chunk < at.chunks) {
+        if (at.entered) toNextStep(at);
+        while (!at.entered && at.chunk < at.chunks && !isWorthEntering(path, at)) ++at.chunk;
+        if (at.chunk < at.chunks && !at.entered) enter(path, at);
+        int count = min(CHUNK_SAMPLES, at.steps - at.chunk * CHUNK_SAMPLES);
+        while (at.chunk < at.chunks && at.step < count) {
+            at.end = min(chunkBegin(path, at.chunk) + float(at.step + 1) * path.spacing, path.span.end);
+            at.atEnd = texelAtDepth(path, at.end);
+            at.rankEnd = rankOf(at.atEnd);
+#if CAPS && CLIP_OBJECT
+            at.measureEnd = keptMeasure(path.clip, at.end);
+#endif
+            found = hasEvent(at);
+            if (found) break;
+            toNextStep(at);
+        }
+        if (!found) {
+            at.entered = false;
+            ++at.chunk;
+        }
+    }
+    return found;
+}
+
+// Shows the first thing that happens in the step, and takes it off.
+void showEvent(inout Light light, Path path, inout March at) {
+#if CAPS && CLIP_OBJECT
+    bool cut = at.measureBegin < 0.0 && at.measureEnd >= 0.0;
+    if (cut) {
+        float depth = clipCrossing(at.begin, at.end, at.measureBegin, at.measureEnd);
+        showCap(light, path, depth, clipSurfaceNormal(path.clip.origin + depth * path.clip.direction));
+        at.measureBegin = 0.0;
+        return;
+    }
+#endif
+    bool rising = at.rankEnd > at.rankBegin;
+    int surface = rising ? at.rankBegin : at.rankBegin - 1;
+    showCrossing(light, path, surface, refinedDepth(path, surfaceTexels[surface].x, at.begin, at.end, at.atBegin, at.atEnd));
+    at.rankBegin += rising ? 1 : -1;
+}
+
 void march(inout Light light, Path path) {
-    int steps = int(ceil((path.span.end - path.span.begin) / path.spacing));
-    int chunks = (steps + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
-    float chunkDepth = float(CHUNK_SAMPLES) * path.spacing;
+    March at;
+    at.steps = int(ceil((path.span.end - path.span.begin) / path.spacing));
+    at.chunks = (at.steps + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
+    at.chunk = 0;
+    at.entered = false;
 #if CAPS
     showEntryCap(light, path);
 #endif
-    int chunk = 0;
     while (light.transmittance > kOpaque) {
-        bool interesting = false;
-#if CLIP_OBJECT
-        int verdict = 1;
-#endif
-        // Every lane of a SIMD group seeks its own next chunk, so that all of them then have steps to take.
-        for (; chunk < chunks; ++chunk) {
-            float begin = path.span.begin + float(chunk) * chunkDepth;
-            interesting = mayCross(path, begin + 0.5 * chunkDepth);
-#if CLIP_OBJECT
-#if !CAPS
-            if (!interesting) continue;
-#endif
-            verdict = clipVerdict(path.clip, begin, min(begin + chunkDepth, path.span.end));
-            if (verdict < 0) continue;
-            if (verdict == 0 && bool(CAPS)) break;
-#endif
-            if (interesting) break;
-        }
-        if (chunk >= chunks) break;
-        int first = chunk * CHUNK_SAMPLES;
-        int count = min(CHUNK_SAMPLES, steps - first);
-        float begin = path.span.begin + float(first) * path.spacing;
-        float atBegin = texelAtDepth(path, begin);
-#if CAPS && CLIP_OBJECT
-        float measure = verdict == 0 ? keptMeasure(path.clip, begin) : 1.0;
-#endif
-        for (int k = 1; k <= count && light.transmittance > kOpaque; ++k) {
-            float end = min(path.span.begin + float(first + k) * path.spacing, path.span.end);
-            float atEnd = texelAtDepth(path, end);
-#if CAPS && CLIP_OBJECT
-            if (verdict == 0) {
-                float measureEnd = keptMeasure(path.clip, end);
-                showObjectCap(light, path, begin, end, measure, measureEnd);
-                measure = measureEnd;
-                if (light.transmittance <= kOpaque) break;
-            }
-#endif
-            showCrossings(light, path, begin, end, atBegin, atEnd);
-            begin = end;
-            atBegin = atEnd;
-        }
-        ++chunk;
+        if (!seekEvent(path, at)) break;
+        showEvent(light, path, at);
     }
 }
 #endif

@@ -37,13 +37,19 @@ float largestIn(Path path, int chunk, float largest) {
     int verdict = clipVerdict(path.clip, firstDepth, firstDepth + float(CHUNK_SAMPLES) * path.spacing);
     if (verdict < 0) return largest;
 #endif
-    for (int k = 0; k < CHUNK_SAMPLES; ++k) {
-        float texel = texelSign * texelAt(path.first + float(begin + k) * path.stride);
-        bool counts = begin + k < path.whole && texel > largest; // false for NaN
+    int whole = CHUNK_SAMPLES;
 #if CLIP_OBJECT
-        if (counts && verdict == 0) counts = keptMeasure(path.clip, firstDepth + float(k) * path.spacing) >= 0.0;
+    whole = verdict > 0 ? CHUNK_SAMPLES : 0;
+    int clipped = verdict == 0 ? CHUNK_SAMPLES : 0;
+    for (int k = 0; k < clipped; ++k) {
+        float texel = texelSign * texelAt(path.first + float(begin + k) * path.stride);
+        bool kept = keptMeasure(path.clip, firstDepth + float(k) * path.spacing) >= 0.0;
+        if (begin + k < path.whole && texel > largest && kept) largest = texel; // false for NaN
+    }
 #endif
-        if (counts) largest = texel;
+    for (int k = 0; k < whole; ++k) {
+        float texel = texelSign * texelAt(path.first + float(begin + k) * path.stride);
+        if (begin + k < path.whole && texel > largest) largest = texel; // false for NaN
     }
     return largest;
 }

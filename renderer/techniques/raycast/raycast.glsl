@@ -49,18 +49,105 @@ void add(inout Light light, vec4 entry, float length) {
     light.transmittance *= 1.0 - rgba.a;
 }
 
-// The sample at `depth` that stands for `length` of depth.
-void takeSample(inout Light light, Path path, float depth, float length, bool nearObject) {
-    vec4 entry = classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction));
 #if SHADING
-    if (entry.a > 0.0 && length > 0.0)
+// The stretch whose sample is looked at next.
+struct Cursor {
+    int stretches; // along the whole ray, the shorter last one included
+    int chunks;
+    int chunk;
+    int stretch;  // of the chunk
+    bool entered; // `stretch` and `measure` hold for this chunk
+    float measure; // where the stretch begins
+    float depth;  // of the sample that was found
+    float length; // that it stands for
+    vec4 entry;
+    bool nearObject;
+};
+
+float depthOf(Path path, int stretch) { return path.span.begin + float(stretch) * path.spacing; }
+
+bool isWorthEntering(Path path, inout Cursor at) {
+    int first = at.chunk * CHUNK_SAMPLES;
+    float begin = depthOf(path, first);
+    float end = depthOf(path, first + CHUNK_SAMPLES);
+    bool worth = mayShow(path.ray.origin + 0.5 * (begin + end) * path.ray.direction);
 #if CLIP_OBJECT
-        entry.rgb = lit(entry.rgb, sampleNormal(path.ray, path.span, depth, path.depthPerVoxel, path.clip, nearObject), path.ray.toEye);
+    // One voxel more in front: it decides whether samples lie behind a cut.
+    int verdict = clipVerdict(path.clip, begin - path.depthPerVoxel, end);
+    worth = worth && verdict >= 0;
+    at.nearObject = verdict == 0;
+#endif
+    return worth;
+}
+
+// Goes on to the next sample that shows. Light is dear: where a driver runs SIMD groups with masks, a branch that no ray
+// takes costs its time all the same, and only loops keep it off the samples that show nothing.
+bool seekSample(Path path, inout Cursor at) {
+    bool found = false;
+    while (!found && at.chunk < at.chunks) {
+        while (!at.entered && at.chunk < at.chunks && !isWorthEntering(path, at)) ++at.chunk;
+        int first = at.chunk * CHUNK_SAMPLES;
+        int count = min(CHUNK_SAMPLES, at.stretches - first);
+        if (!at.entered) {
+            at.entered = true;
+            at.stretch = 0;
+#if CLIP_OBJECT == 1
+            at.measure = keptMeasure(path.clip, depthOf(path, first));
+#endif
+        }
+        while (at.chunk < at.chunks && at.stretch < count) {
+            vec2 part = vec2(depthOf(path, first + at.stretch), min(depthOf(path, first + at.stretch + 1), path.span.end));
+            ++at.stretch;
+#if CLIP_OBJECT == 1
+            float measureEnd = keptMeasure(path.clip, part.y);
+            part = keptPart(part.x, part.y, at.measure, measureEnd);
+            at.measure = measureEnd;
+#elif CLIP_OBJECT == 2
+            if (keptMeasure(path.clip, 0.5 * (part.x + part.y)) < 0.0) part.y = part.x;
+#endif
+            at.depth = 0.5 * (part.x + part.y);
+            at.length = part.y - part.x;
+            at.entry = classifyTexel(texelAt(path.ray.origin + at.depth * path.ray.direction));
+            found = at.entry.a > 0.0 && at.length > 0.0;
+            if (found) break;
+        }
+        if (!found) {
+            at.entered = false;
+            ++at.chunk;
+        }
+    }
+    return found;
+}
+
+vec4 composite(Path path) {
+    Cursor at;
+    at.stretches = int((path.span.end - path.span.begin) / path.spacing) + 1;
+    at.chunks = (at.stretches + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
+    at.chunk = 0;
+    at.entered = false;
+    at.measure = 0.0;
+    at.nearObject = false;
+    Light light = Light(vec3(0.0), 1.0);
+    while (light.transmittance > kOpaque) {
+        if (!seekSample(path, at)) break;
+#if CLIP_OBJECT
+        vec3 normal = sampleNormal(path.ray, path.span, at.depth, path.depthPerVoxel, path.clip, at.nearObject);
 #else
-        entry.rgb = lit(entry.rgb, sampleNormal(path.ray, path.span, depth, path.depthPerVoxel), path.ray.toEye);
+        vec3 normal = sampleNormal(path.ray, path.span, at.depth, path.depthPerVoxel);
 #endif
-#endif
-    add(light, entry, length * path.unitsPerDepth);
+        add(light, vec4(lit(at.entry.rgb, normal, path.ray.toEye), at.entry.a), at.length * path.unitsPerDepth);
+    }
+    return vec4(light.colour, 1.0 - light.transmittance);
+}
+#else
+// The sample at `depth` that stands for `length` of depth.
+void takeSample(inout Light light, Path path, float depth, float length) {
+    add(light, classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction)), length * path.unitsPerDepth);
+}
+
+void takeWhole(inout Light light, Path path, int first, int count) {
+    for (int k = 0; k < CHUNK_SAMPLES; ++k)
+        takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count ? path.spacing : 0.0);
 }
 
 #if CLIP_OBJECT
@@ -68,40 +155,30 @@ void takeSample(inout Light light, Path path, float depth, float length, bool ne
 float takeClipped(inout Light light, Path path, float begin, float end, float measureBegin) {
 #if CLIP_OBJECT == 2
     float middle = 0.5 * (begin + end);
-    float kept = keptMeasure(path.clip, middle) >= 0.0 ? end - begin : 0.0;
-    if (kept > 0.0) takeSample(light, path, middle, kept, true);
+    takeSample(light, path, middle, keptMeasure(path.clip, middle) >= 0.0 ? end - begin : 0.0);
     return 0.0;
 #else
     float measureEnd = keptMeasure(path.clip, end);
     vec2 part = keptPart(begin, end, measureBegin, measureEnd);
-    if (part.x < part.y) takeSample(light, path, 0.5 * (part.x + part.y), part.y - part.x, true);
+    takeSample(light, path, 0.5 * (part.x + part.y), part.y - part.x);
     return measureEnd;
 #endif
 }
 
 void takeChunk(inout Light light, Path path, int first, int whole) {
     float begin = path.span.begin + float(first) * path.spacing;
-    // One voxel more in front: it decides whether samples lie behind a cut.
-    float chunkEnd = begin + float(CHUNK_SAMPLES) * path.spacing;
-    int verdict = clipVerdict(path.clip, begin - path.depthPerVoxel, chunkEnd);
-    if (verdict < 0) return;
-    if (verdict > 0) {
-        for (int k = 0; k < CHUNK_SAMPLES; ++k)
-            takeSample(light, path, begin + (float(k) + 0.5) * path.spacing, first + k < whole ? path.spacing : 0.0, false);
-        return;
-    }
-    float measure = keptMeasure(path.clip, begin);
+    int verdict = clipVerdict(path.clip, begin, begin + float(CHUNK_SAMPLES) * path.spacing);
     int count = min(CHUNK_SAMPLES, whole - first);
-    for (int k = 0; k < count; ++k) {
+    if (verdict > 0) takeWhole(light, path, first, count);
+    float measure = keptMeasure(path.clip, begin);
+    int clipped = verdict == 0 ? count : 0;
+    for (int k = 0; k < clipped; ++k) {
         float stretch = begin + float(k) * path.spacing;
         measure = takeClipped(light, path, stretch, stretch + path.spacing, measure);
     }
 }
 #else
-void takeChunk(inout Light light, Path path, int first, int whole) {
-    for (int k = 0; k < CHUNK_SAMPLES; ++k)
-        takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, first + k < whole ? path.spacing : 0.0, false);
-}
+void takeChunk(inout Light light, Path path, int first, int whole) { takeWhole(light, path, first, whole - first); }
 #endif
 
 vec4 composite(Path path) {
@@ -126,10 +203,11 @@ vec4 composite(Path path) {
 #if CLIP_OBJECT
     takeClipped(light, path, begin, path.span.end, keptMeasure(path.clip, begin));
 #else
-    takeSample(light, path, 0.5 * (begin + path.span.end), path.span.end - begin, false);
+    takeSample(light, path, 0.5 * (begin + path.span.end), path.span.end - begin);
 #endif
     return vec4(light.colour, 1.0 - light.transmittance);
 }
+#endif
 
 void main() {
     ivec2 pixel = picturePixel();

@@ -27,34 +27,31 @@ bool mayShow(vec3 position) {
 #endif
 }
 
-// The part [near, far] of the ray, one sample in its middle, behind what is in `colour` already.
-void addPart(Ray ray, KeptSpan span, vec2 part, float unitsPerDepth, float depthPerVoxel
+struct Slab {
+    float depth;  // of its sample
+    float length; // of what is kept of it
+    vec4 entry;
+};
+
+Slab slabAt(Ray ray, KeptSpan span, int index
 #if CLIP_OBJECT
-             , ClipRay clip, bool nearObject
+            , ClipRay clip
 #endif
 ) {
-    float depth = 0.5 * (part.x + part.y);
-    vec4 entry = classifyTexel(texelAt(ray.origin + depth * ray.direction));
-#if SHADING
-    if (entry.a > 0.0 && part.x < part.y)
-#if CLIP_OBJECT
-        entry.rgb = lit(entry.rgb, sampleNormal(ray, span, depth, depthPerVoxel, clip, nearObject), ray.toEye);
-#else
-        entry.rgb = lit(entry.rgb, sampleNormal(ray, span, depth, depthPerVoxel), ray.toEye);
+    float near = max(firstDepth + float(index) * slabDepth, span.begin);
+    float far = min(firstDepth + float(index + 1) * slabDepth, span.end);
+    vec2 part = vec2(near, max(near, far));
+#if CLIP_OBJECT == 1
+    part = keptPart(part.x, part.y, keptMeasure(clip, part.x), keptMeasure(clip, part.y));
+#elif CLIP_OBJECT == 2
+    if (keptMeasure(clip, 0.5 * (part.x + part.y)) < 0.0) part.y = part.x;
 #endif
-#endif
-    colour += (1.0 - colour.a) * overLength(entry, max(part.y - part.x, 0.0) * unitsPerDepth);
+    Slab slab;
+    slab.depth = 0.5 * (part.x + part.y);
+    slab.length = part.y - part.x;
+    slab.entry = classifyTexel(texelAt(ray.origin + slab.depth * ray.direction));
+    return slab;
 }
-
-#if CLIP_OBJECT
-vec2 partKept(ClipRay clip, float near, float far) {
-#if CLIP_OBJECT == 2
-    return keptMeasure(clip, 0.5 * (near + far)) >= 0.0 ? vec2(near, far) : vec2(near);
-#else
-    return keptPart(near, far, keptMeasure(clip, near), keptMeasure(clip, far));
-#endif
-}
-#endif
 
 void main() {
     Ray ray = cameraRay(gl_FragCoord.xy);
@@ -62,23 +59,41 @@ void main() {
     float middle = firstDepth + 0.5 * float(SLABS_PER_POLYGON) * slabDepth;
     int slabs = mayShow(ray.origin + middle * ray.direction) ? SLABS_PER_POLYGON : 0;
     float unitsPerDepth = ray.radiiPerDepth * unitsPerRadius;
-    float depthPerVoxel = 1.0 / length(ray.direction * voxelsPerTexture);
     colour = vec4(0.0);
+#if CLIP_OBJECT || SHADING
+    float depthPerVoxel = 1.0 / length(ray.direction * voxelsPerTexture);
+#endif
 #if CLIP_OBJECT
     ClipRay clip = clipRayOf(ray);
-    float end = firstDepth + float(SLABS_PER_POLYGON) * slabDepth;
-    int verdict = slabs > 0 ? clipVerdict(clip, firstDepth - depthPerVoxel, end) : -1;
+    // One voxel more in front: it decides whether samples lie behind a cut.
+    int verdict = clipVerdict(clip, firstDepth - depthPerVoxel, firstDepth + float(SLABS_PER_POLYGON) * slabDepth);
     if (verdict < 0) slabs = 0;
 #endif
-    for (int slab = 0; slab < slabs; ++slab) {
-        float near = max(firstDepth + float(slab) * slabDepth, span.begin);
-        float far = min(firstDepth + float(slab + 1) * slabDepth, span.end);
-#if CLIP_OBJECT
-        vec2 part = vec2(near, far);
-        if (verdict == 0) part = near < far ? partKept(clip, near, far) : vec2(near);
-        addPart(ray, span, part, unitsPerDepth, depthPerVoxel, clip, verdict == 0);
-#else
-        addPart(ray, span, vec2(near, far), unitsPerDepth, depthPerVoxel);
+    int index = 0;
+    while (index < slabs) {
+        Slab slab;
+#if SHADING
+        // Light is dear: only loops keep it off the samples that show nothing (techniques/raycast/raycast.glsl).
+        bool found = false;
+        while (index < slabs && !found) {
 #endif
+#if CLIP_OBJECT
+            slab = slabAt(ray, span, index, clip);
+#else
+            slab = slabAt(ray, span, index);
+#endif
+            ++index;
+#if SHADING
+            found = slab.entry.a > 0.0 && slab.length > 0.0;
+        }
+        if (!found) break;
+#if CLIP_OBJECT
+        vec3 normal = sampleNormal(ray, span, slab.depth, depthPerVoxel, clip, verdict == 0);
+#else
+        vec3 normal = sampleNormal(ray, span, slab.depth, depthPerVoxel);
+#endif
+        slab.entry.rgb = lit(slab.entry.rgb, normal, ray.toEye);
+#endif
+        colour += (1.0 - colour.a) * overLength(slab.entry, slab.length * unitsPerDepth);
     }
 }

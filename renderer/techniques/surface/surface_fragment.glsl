@@ -27,7 +27,7 @@ float firstEntry(ClipRay clip, float begin, float end, float step) {
     float measureNear = keptMeasure(clip, near);
     while (near < end) {
         // Distances say how far nothing can change.
-        float safe = measureNear < 0.0 ? (-measureNear - nearestSampleSlack) / (kSteepest * clip.lengthPerDepth) : 0.0;
+        float safe = measureNear < 0.0 ? (-measureNear - nearestSampleSlack) / (1.1 * clip.lengthPerDepth) : 0.0;
         float far = min(near + max(step, safe), end);
         float measureFar = keptMeasure(clip, far);
         if (measureNear < 0.0 && measureFar >= 0.0) {
@@ -45,6 +45,7 @@ float firstEntry(ClipRay clip, float begin, float end, float step) {
 #endif
 
 void main() {
+    colour = vec4(0.0);
     Ray ray = cameraRay(gl_FragCoord.xy);
     float onFace = depthOnFace(ray);
     float depth = onFace;
