@@ -93,15 +93,13 @@ void waitWithProgress(const engine::Engine& engine) {
     if (terminal) std::fprintf(stderr, "\r%40s\r", "");
 }
 
-/// One line per cell that could not be drawn.
-int reportCells(const engine::Engine& engine, const std::string& sheetName) {
-    int failed = 0;
-    for (const auto& status : engine.cellStatuses(*engine.snapshot(), sheetName)) {
-        if (status.state != engine::CellState::Error) continue;
-        reportFailure("cell " + sheet::addressName(status.cell) + ": " + status.code + " " + status.message);
-        ++failed;
+/// Drawing asks for clip objects, which are computed then: again until nothing is on its way.
+engine::SheetImage finalImage(const engine::Engine& engine, const engine::SheetImageRequest& request) {
+    while (true) {
+        waitWithProgress(engine);
+        auto image = engine.renderSheet(request);
+        if (image.final) return image;
     }
-    return failed;
 }
 
 int runRender(const RenderArguments& arguments) {
@@ -119,11 +117,11 @@ int runRender(const RenderArguments& arguments) {
     for (const auto& setting : arguments.settings)
         applySetting(engine, request.sheet, setting);
     applyLabels(engine, request.sheet, arguments.labels);
-    waitWithProgress(engine);
-    const int failed = reportCells(engine, request.sheet);
-    const auto image = engine.renderSheet(request);
+    const auto image = finalImage(engine, request);
+    for (const std::string& failure : image.failures)
+        reportFailure(failure);
     engine::writeImageFile(image.pixels, arguments.output);
-    return failed + image.failedCells > 0 ? kExitFailed : kExitDone;
+    return image.failedCells > 0 ? kExitFailed : kExitDone;
 }
 
 } // namespace

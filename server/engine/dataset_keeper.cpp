@@ -46,7 +46,7 @@ DatasetKeeper::DatasetKeeper(const EngineOptions& options, Importer importer,
       volumes_(std::make_shared<store::StoreVolumeProvider>(store_)),
       imports_(importWorkers(options),
                [this](const std::string& id, bool isSettled) { settled(isSettled, id); }),
-      formulas_(1, [this](const std::string&, bool isSettled) { settled(isSettled, {}); }) {}
+      computations_(1, [this](const std::string&, bool isSettled) { settled(isSettled, {}); }) {}
 
 void DatasetKeeper::settled(bool isSettled, const std::string& importId) {
     if (isSettled) ++generation_;
@@ -114,11 +114,11 @@ std::shared_ptr<const CellContents> DatasetKeeper::contents(const sheet::KeyTabl
     };
     sources.formula = [&](const FormulaTask& task) {
         const std::string id = formulaEntryKey(task);
-        formulas_.ensure(id, [this, task](const JobControl& control) {
+        computations_.ensure(id, [this, task](const JobControl& control) {
             auto meta = computeFormula(task, *store_, *volumes_, options_.memoryBudgetBytes, control);
             return volumes_->describe(meta->key);
         });
-        return std::pair(id, formulas_.find(id).value());
+        return std::pair(id, computations_.find(id).value());
     };
     auto made = std::make_shared<const CellContents>(evaluateContents(keys, workbook, sources));
     const std::lock_guard lock(cacheMutex_);
@@ -126,15 +126,48 @@ std::shared_ptr<const CellContents> DatasetKeeper::contents(const sheet::KeyTabl
     return made;
 }
 
+JobState DatasetKeeper::threshold(const std::string& asker, const ThresholdTask& task) {
+    const std::string id = thresholdEntryKey(task);
+    want(asker, id);
+    while (true) {
+        computations_.ensure(id, [this, task](const JobControl& control) {
+            const auto meta = computeThreshold(task, *store_, *volumes_, options_.memoryBudgetBytes, control);
+            return volumes_->describe(meta->key);
+        });
+        // Another thread may have dropped it in between.
+        if (const auto state = computations_.find(id)) return *state;
+    }
+}
+
+void DatasetKeeper::releaseThreshold(const std::string& asker) { want(asker, {}); }
+
+void DatasetKeeper::want(const std::string& asker, const std::string& thresholdId) {
+    std::string dropped;
+    {
+        const std::lock_guard lock(wantedMutex_);
+        const auto known = wantedThresholds_.find(asker);
+        if (known != wantedThresholds_.end()) {
+            if (known->second == thresholdId) return;
+            dropped = known->second;
+            wantedThresholds_.erase(known);
+        }
+        if (!thresholdId.empty()) wantedThresholds_[asker] = thresholdId;
+        const bool stillWanted = std::any_of(wantedThresholds_.begin(), wantedThresholds_.end(),
+                                             [&](const auto& each) { return each.second == dropped; });
+        if (stillWanted) dropped.clear();
+    }
+    if (!dropped.empty()) computations_.dropQueued(dropped);
+}
+
 double DatasetKeeper::progress(const CellContent& content) const {
     if (content.state != CellState::Pending) return 1.0;
-    const auto state = (content.computing ? formulas_ : imports_).find(content.job);
+    const auto state = (content.computing ? computations_ : imports_).find(content.job);
     return state ? std::min(state->progress, 0.999) : 0.0;
 }
 
 void DatasetKeeper::stop() {
     imports_.stop();
-    formulas_.stop();
+    computations_.stop();
 }
 
 bool DatasetKeeper::waitIdle(double seconds) const {
@@ -142,9 +175,9 @@ bool DatasetKeeper::waitIdle(double seconds) const {
     const auto left = [&] {
         return std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
     };
-    // An import that ends may start a formula.
-    while (!(imports_.idle() && formulas_.idle())) {
-        if (!imports_.waitIdle(std::max(0.0, left())) || !formulas_.waitIdle(std::max(0.0, left())))
+    // An import that ends may start a formula, and a formula a threshold.
+    while (!(imports_.idle() && computations_.idle())) {
+        if (!imports_.waitIdle(std::max(0.0, left())) || !computations_.waitIdle(std::max(0.0, left())))
             return false;
     }
     return true;

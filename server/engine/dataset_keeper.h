@@ -1,10 +1,12 @@
-// Datasets and formula results of the running engine: from sources to entries of the volume store.
+// Datasets, formula results and thresholds of the running engine: from sources to entries of the volume
+// store.
 #pragma once
 
 #include "engine/cell_contents.h"
 #include "engine/engine.h"
 #include "engine/entry_jobs.h"
 #include "engine/source_files.h"
+#include "engine/threshold_job.h"
 #include "store/store_volume_provider.h"
 #include "store/volume_store.h"
 
@@ -42,6 +44,12 @@ public:
     /// of a job.
     [[nodiscard]] std::shared_ptr<const CellContents> contents(const sheet::KeyTable& keys,
                                                                const sheet::Workbook& workbook);
+    /// Starts the computation unless it is known. `asker` wants this one and no other any more: what only it
+    /// wanted and what has not begun is dropped, so that dragging a threshold does not queue every value.
+    [[nodiscard]] JobState threshold(const std::string& asker, const ThresholdTask& task);
+    /// `asker` wants no threshold any more.
+    void releaseThreshold(const std::string& asker);
+
     /// [0, 1) of what a pending cell waits for.
     [[nodiscard]] double progress(const CellContent& content) const;
 
@@ -55,6 +63,8 @@ private:
     [[nodiscard]] std::shared_ptr<const DatasetMeta> import(const sheet::DatasetSource& source,
                                                             const JobControl& control);
     void settled(bool isSettled, const std::string& importId);
+    /// Remembers what `asker` wants (empty: nothing) and drops what nobody wants any more.
+    void want(const std::string& asker, const std::string& thresholdId);
 
     EngineOptions options_;
     Importer importer_;
@@ -73,8 +83,10 @@ private:
         std::shared_ptr<const CellContents> contents;
     };
     Cached cached_;
-    EntryJobs imports_; ///< last: their threads use everything above
-    EntryJobs formulas_;
+    std::mutex wantedMutex_;
+    std::map<std::string, std::string> wantedThresholds_; ///< id of the job, by who asked last
+    EntryJobs imports_;                                   ///< last: their threads use everything above
+    EntryJobs computations_;                              ///< formulas and thresholds
 };
 
 } // namespace voxsheet::engine

@@ -143,7 +143,8 @@ PreparedTile Engine::prepareTile(const sheet::Workbook& workbook, const std::str
     const std::size_t index = implementation_->indexOf(workbook, sheetName);
     const auto contents = implementation_->contents(workbook);
     PreparedTile tile = implementation_->tiles.prepare(workbook, index, cell, view, quality, contents);
-    tile.progress = implementation_->datasets.progress(contentAt(*contents, {index, cell}));
+    const CellContent& content = contentAt(*contents, {index, cell});
+    if (content.state == CellState::Pending) tile.progress = implementation_->datasets.progress(content);
     return tile;
 }
 

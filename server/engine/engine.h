@@ -137,8 +137,9 @@ struct SheetImageRequest {
 struct SheetImage {
     TilePixels pixels;
     std::string identity;
-    int failedCells = 0; ///< cells drawn as a labelled error tile
-    bool final = true;
+    int failedCells = 0;               ///< cells drawn as a labelled error tile
+    std::vector<std::string> failures; ///< one sentence per failed cell: "cell B2: #TYPE! ..."
+    bool final = true;                 ///< nothing that is shown is still being imported or computed
 };
 
 /// Where a whole document comes from: one that stands in files already needs no recovery file.
@@ -169,7 +170,8 @@ public:
     [[nodiscard]] DatasetInfo dataset(const std::string& name) const;
     void removeDataset(const std::string& name);
     void cancelImport(const std::string& name);
-    /// Blocks until no import and no formula is under way, or the deadline passed; false on deadline.
+    /// Blocks until no import, formula or clip object is under way, or the deadline passed; false on
+    /// deadline.
     bool waitIdle(double seconds) const;
     /// Header-only look at a file (voxsheet-import --header-only); throws as the importer reports.
     [[nodiscard]] nlohmann::json previewFile(const std::filesystem::path& file,

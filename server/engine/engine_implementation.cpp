@@ -66,6 +66,17 @@ std::string environmentOf(const RenderThread* thread) {
     return text;
 }
 
+NamedVolumeSources namedVolumeSources(DatasetKeeper& datasets) {
+    NamedVolumeSources sources;
+    sources.import = [&datasets](const sheet::DatasetSource& source) { return datasets.state(source); };
+    sources.threshold = [&datasets](const std::string& asker, const ThresholdTask& task) {
+        return datasets.threshold(asker, task);
+    };
+    sources.release = [&datasets](const std::string& asker) { datasets.releaseThreshold(asker); };
+    sources.progress = [&datasets](const CellContent& content) { return datasets.progress(content); };
+    return sources;
+}
+
 } // namespace
 
 Engine::Implementation::Implementation(EngineOptions given)
@@ -73,7 +84,8 @@ Engine::Implementation::Implementation(EngineOptions given)
       datasets(options, childImporter(options),
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
       thread(renderThread(options, datasets.volumes())),
-      tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), environmentOf(thread.get())),
+      tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), namedVolumeSources(datasets),
+            environmentOf(thread.get())),
       probes(*keys, datasets.volumes()),
       workbook(keys, options, [this](std::uint64_t version) { workbookChanged(version); }) {}
 

@@ -90,6 +90,13 @@ void EntryJobs::cancel(const std::string& id) {
     if (listener_) listener_(id, true);
 }
 
+void EntryJobs::dropQueued(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    if (std::erase(queue_, id) == 0) return;
+    jobs_.erase(id);
+    changed_.notify_all();
+}
+
 bool EntryJobs::idle() const {
     const std::lock_guard lock(mutex_);
     return queue_.empty() && running_ == 0;

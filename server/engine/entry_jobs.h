@@ -58,6 +58,9 @@ public:
     [[nodiscard]] std::optional<JobState> find(const std::string& id) const;
     /// A queued or running job fails as Cancelled; others stay as they are.
     void cancel(const std::string& id);
+    /// Forgets a job that waits for a worker, as if nobody had asked for it; others stay as they are. Nobody
+    /// is told.
+    void dropQueued(const std::string& id);
     [[nodiscard]] bool idle() const;
     /// False when the deadline passed first.
     bool waitIdle(double seconds) const;

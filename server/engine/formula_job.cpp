@@ -1,9 +1,9 @@
 #include "engine/formula_job.h"
 
 #include "base/errors.h"
+#include "engine/computed_entry.h"
 #include "engine/sample_reader.h"
 #include "store/store_key.h"
-#include "store/store_writer.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,10 +20,6 @@ constexpr long kSlabSamples = 1L << 20; ///< per input: 8 MiB of doubles
 int slabSlices(const glm::ivec3& dims) {
     const long slice = static_cast<long>(dims.x) * dims.y;
     return static_cast<int>(std::clamp(kSlabSamples / slice, 1L, static_cast<long>(dims.z)));
-}
-
-std::string megabytes(std::uint64_t bytes) {
-    return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
 }
 
 DatasetMeta resultMeta(const FormulaTask& task, const std::string& key) {
@@ -151,23 +147,9 @@ std::shared_ptr<const DatasetMeta> computeFormula(const FormulaTask& task, const
                                                   const JobControl& control) {
     const std::string key = formulaEntryKey(task);
     if (const auto entry = store.open(key)) return entry->meta();
-    const std::uint64_t needed = formulaMemoryBytes(task);
-    if (memoryBudgetBytes != 0 && needed > memoryBudgetBytes) {
-        throw LimitExceeded("formula " + task.formula,
-                            "it needs " + megabytes(needed) + " of memory, the budget is " +
-                                megabytes(memoryBudgetBytes),
-                            "start the server with a larger --memory-budget");
-    }
-    store::StoreWriter writer(store, resultMeta(task, key));
-    writer.addArray(0, 0, computeSamples(task, volumes, control));
-    if (control.progress) control.progress(0.95);
-    writer.commit();
-    const auto entry = store.open(key);
-    if (!entry) {
-        throw IoError("formula " + task.formula, "its result vanished from the volume store",
-                      "make --store-limit larger");
-    }
-    return entry->meta();
+    requireMemory("formula " + task.formula, formulaMemoryBytes(task), memoryBudgetBytes);
+    auto samples = computeSamples(task, volumes, control);
+    return storeResult("formula " + task.formula, store, resultMeta(task, key), std::move(samples));
 }
 
 } // namespace voxsheet::engine

@@ -16,7 +16,6 @@ namespace {
 struct DrawnCell {
     sheet::Address address;
     const sheet::Cell* cell = nullptr; ///< null: blank
-    CellState state = CellState::Empty;
     PreparedTile tile;
     sheet::Annotations annotations = sheet::Annotations::All;
     std::optional<CellLook> look;
@@ -115,7 +114,6 @@ private:
                 const auto style = sheet::resolveStyle(sources_.keys, sheet_, cell.address, overlay()).style;
                 cell.annotations = request_.annotate ? style.annotations : sheet::Annotations::None;
                 cell.background = colourOf(style.background);
-                cell.state = contentAt(*contents_, {sheetIndex_, cell.address}).state;
                 cells_.push_back(std::move(cell));
             }
         }
@@ -157,7 +155,7 @@ private:
                 cell.look =
                     sources_.tiles.look(workbook_, sheetIndex_, cell.address, request_.view, contents_);
             }
-            if (cell.state == CellState::Pending) image_.final = false;
+            if (cell.tile.progress < 1.0) image_.final = false;
             identity_ += "\n" + cell.tile.identity + std::to_string(static_cast<int>(cell.annotations)) +
                          (cell.cell != nullptr ? sheet::cellTitle(*cell.cell) : "");
         }
@@ -227,6 +225,8 @@ private:
         PixelRect inside{area.low + glm::ivec2(font), area.high - glm::ivec2(font)};
         if (!code.empty()) {
             ++image_.failedCells;
+            image_.failures.push_back("cell " + sheet::addressName(cell.address) + ": " + code + " " +
+                                      sentence);
             canvas.text({inside.low.x, inside.low.y + font}, TextAlign::Left, code, font * 3 / 2,
                         colours.error, inside.size().x);
             inside.low.y += font * 5 / 2;

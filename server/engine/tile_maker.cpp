@@ -4,7 +4,21 @@
 #include "engine/isosurface_resolver.h"
 #include "engine/tile_identity.h"
 
+#include <algorithm>
+
 namespace voxsheet::engine {
+
+namespace {
+
+/// What a cell shows for a style that cannot be drawn.
+const char* codeOf(const InvalidInput& error) {
+    for (const char* naming : {"field", "clip.shape", "isosurface.colorBy"}) {
+        if (error.field() == naming) return "#REF!";
+    }
+    return "#TYPE!";
+}
+
+} // namespace
 
 CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex, const sheet::Address& cell,
                          const View& view, const std::shared_ptr<const CellContents>& contents) {
@@ -23,7 +37,35 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
     look.transfer = resolveTransfer(look.resolved, maps_, *summary, path);
     if (style.technique == sheet::Technique::Isosurface)
         look.isosurface = resolveIsosurface(style.isosurface, look.transfer.function, *summary);
+    findNamedVolumes(look, {workbook, sheetIndex, cell, view, *contents, style.timeStep});
     return look;
+}
+
+void TileMaker::findNamedVolumes(CellLook& look, const NamingCell& from) {
+    const sheet::TypedStyle& style = look.resolved.style;
+    if (style.clip.shape.empty()) {
+        named_.releaseClipObject(from);
+    } else {
+        auto object = named_.clipObject(style.clip.shape, from);
+        look.clipObject = std::move(object.volume);
+        look.missing = std::move(object.missing);
+    }
+    const std::string& colourBy = style.isosurface.colourBy;
+    if (style.technique != sheet::Technique::Isosurface || colourBy.empty()) return;
+    auto colours =
+        named_.find(sheet::parseVolumeName(colourBy, "isosurface.colorBy"), from, "isosurface.colorBy");
+    if (!colours.volume) {
+        look.missing = std::move(colours.missing);
+        return;
+    }
+    ColouringLook by{colours.volume->meta, {colours.volume->field, colours.volume->step}, {}};
+    // What was typed in, or shared, is a range of the cell's own quantity.
+    sheet::ResolvedStyle own = look.resolved;
+    own.style.range = {};
+    own.style.range.scale = style.range.scale;
+    by.transfer = resolveTransfer(own, maps_, *cache_.summary(*by.meta, by.shown.field, by.shown.step),
+                                  boxPathUnitLengths(by.meta->grid));
+    look.colouredBy = std::move(by);
 }
 
 std::shared_ptr<const ValueSummary>
@@ -84,7 +126,7 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
             draw(tile, look(workbook, sheetIndex, cell, view, contents), quality);
         } catch (const InvalidInput& error) {
             if (!view.request.empty()) throw;
-            tile.code = error.field() == "field" ? "#REF!" : "#TYPE!";
+            tile.code = codeOf(error);
             tile.message = error.what();
         } catch (const Error& error) {
             tile.code = "#IMPORT!";
@@ -100,9 +142,23 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
 }
 
 void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality) {
-    tile.spec = resolveTile(look.resolved.style, *look.meta, look.shown, cache_.table(look.transfer.function),
-                            quality.sizePixels, quality.level, quality.sampleDistanceFactor);
-    tile.spec->isosurface = look.isosurface;
+    if (look.missing) {
+        tile.code = look.missing->code;
+        tile.message = look.missing->message;
+        if (tile.code.empty()) tile.progress = look.missing->progress;
+        return;
+    }
+    const sheet::TypedStyle& style = look.resolved.style;
+    TileSpec spec = resolveTile(style, *look.meta, look.shown, cache_.table(look.transfer.function),
+                                quality.sizePixels, quality.level, quality.sampleDistanceFactor);
+    if (look.clipObject) spec.clip.object = resolveClipObject(style.clip, *look.clipObject, look.meta->grid);
+    spec.isosurface = look.isosurface;
+    if (const auto& by = look.colouredBy) {
+        spec.isosurface.colouredBy =
+            ColourVolume{by->meta->key, by->shown.field, by->shown.step,
+                         std::min(spec.level, by->meta->levels() - 1), cache_.table(by->transfer.function)};
+    }
+    tile.spec = std::move(spec);
     tile.identity = tileIdentity(*tile.spec, environment_);
 }
 

@@ -5,6 +5,7 @@
 #include "engine/cell_resolver.h"
 #include "engine/engine.h"
 #include "engine/look_cache.h"
+#include "engine/named_volumes.h"
 
 #include <memory>
 #include <mutex>
@@ -12,6 +13,13 @@
 #include <vector>
 
 namespace voxsheet::engine {
+
+/// The volume whose values colour isosurfaces, and how.
+struct ColouringLook {
+    std::shared_ptr<const DatasetMeta> meta;
+    FieldAndStep shown;
+    ResolvedTransfer transfer; ///< by the cell's own style, over this volume's range
+};
 
 /// How one cell shows its dataset.
 struct CellLook {
@@ -21,17 +29,23 @@ struct CellLook {
     IsosurfaceSpec isosurface; ///< empty unless the technique is isosurface
     std::shared_ptr<const DatasetMeta> meta;
     bool sharedRange = false;
+    std::optional<ClipObjectVolume> clipObject;
+    std::optional<ColouringLook> colouredBy;
+    std::optional<MissingVolume> missing; ///< a volume that the style names; without it there is no picture
 };
 
 /// Thread-safe.
 class TileMaker {
 public:
     TileMaker(const sheet::KeyTable& keys, const ColourMapTable& maps,
-              std::shared_ptr<const VolumeProvider> volumes, std::string environment)
-        : keys_(keys), maps_(maps), cache_(std::move(volumes)), environment_(std::move(environment)) {}
+              std::shared_ptr<const VolumeProvider> volumes, NamedVolumeSources named,
+              std::string environment)
+        : keys_(keys), maps_(maps), cache_(std::move(volumes)), named_(keys, std::move(named)),
+          environment_(std::move(environment)) {}
 
-    /// The cell must be Ready. Throws InvalidInput (with field) if keys do not agree or the field is not
-    /// there, NotFound if the cell lies outside the sheet, and what the provider throws.
+    /// The cell must be Ready. Starts what it takes to have the volumes that its style names. Throws
+    /// InvalidInput (with field) if keys do not agree, or the field or a named volume is not there, NotFound
+    /// if the cell lies outside the sheet, and what the provider throws.
     [[nodiscard]] CellLook look(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                 const sheet::Address& cell, const View& view,
                                 const std::shared_ptr<const CellContents>& contents);
@@ -50,11 +64,13 @@ private:
                   const CellLook& own, const std::shared_ptr<const CellContents>& contents);
     [[nodiscard]] std::vector<ValueSummary>
     sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex, const CellContents& contents);
+    void findNamedVolumes(CellLook& look, const NamingCell& from);
     void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
 
     const sheet::KeyTable& keys_;
     const ColourMapTable& maps_;
     LookCache cache_;
+    NamedVolumes named_;
     /// Every tile of a frame asks for the same one.
     struct SharedRange {
         std::uint64_t version = 0;

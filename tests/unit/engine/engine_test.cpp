@@ -355,5 +355,73 @@ TEST_F(EngineTest, WithoutARendererPicturesAreRefusedClearly) {
     EXPECT_THROW(static_cast<void>(engine.renderSheet({})), Unsupported);
 }
 
+TEST_F(EngineTest, AClipObjectOfDataIsComputedWhenACellAsksForItAndServesAllOfThem) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {8, 8, 8}, 20)),
+                           request(volume("c.nrrd", {8, 8, 8}, 1))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    setSource(engine, "B2", "=A1+B1");
+    ASSERT_TRUE(engine.waitIdle(60));
+    const auto prepare = [&](const char* cell, const View& view = {}) {
+        return engine.prepareTile(*engine.snapshot(), "", sheet::parseAddress(cell), view, {});
+    };
+    std::atomic<int> told{0};
+    const auto listener = engine.addListener(
+        [&](ChangeKind kind, std::uint64_t) { told += kind == ChangeKind::Datasets ? 1 : 0; });
+    engine.apply(
+        sheet::SetStyle{"Sheet1", sheet::Layer::sheet(), {{"clip.shape", std::string("B2 > 15")}}, false});
+    const PreparedTile first = prepare("A1");
+    if (!first.spec) { // Else the computation was faster than we.
+        EXPECT_EQ(first.code, "") << first.message;
+        EXPECT_LT(first.progress, 1.0);
+        EXPECT_NE(first.message.find("B2 > 15"), std::string::npos) << first.message;
+    }
+    ASSERT_TRUE(engine.waitIdle(60));
+    EXPECT_GT(told, 0) << "a page hears that it can draw";
+    const PreparedTile a = prepare("A1");
+    const PreparedTile b = prepare("B1");
+    ASSERT_TRUE(a.spec && b.spec) << a.message << b.message;
+    ASSERT_TRUE(a.spec->clip.object && b.spec->clip.object);
+    EXPECT_EQ(a.spec->clip.object->dataset, b.spec->clip.object->dataset);
+    EXPECT_EQ(a.spec->clip.object->objectFromWorld, glm::dmat4(1.0)) << "of the same grid";
+    EXPECT_EQ(a.progress, 1.0);
+
+    View view;
+    view.cells[{0, 0}] = {{"clip.shape", std::string("C9 > 1")}};
+    EXPECT_EQ(prepare("A1", view).code, "#REF!");
+    EXPECT_NE(prepare("A1", view).message.find("C9"), std::string::npos);
+    view.cells.clear();
+    view.request = {{"clip.shape", std::string("C9 > 1")}};
+    EXPECT_THROW(static_cast<void>(prepare("A1", view)), InvalidInput) << "the caller sent it";
+    setSource(engine, "B2", "=A1+nonsense");
+    EXPECT_EQ(prepare("A1").code, "#NAME?") << prepare("A1").message;
+    engine.removeListener(listener);
+}
+
+TEST_F(EngineTest, SurfacesColouredByAnotherCellSpanThatCellsValues) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {40, 40, 40}, 20))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    view.all = {{"technique", std::string("isosurface")},
+                {"isosurface.colorBy", std::string("B1")},
+                {"range.mode", std::string("fixed")},
+                {"range.min", 0.0},
+                {"range.max", 1.0}};
+    TileQuality coarse;
+    coarse.level = 9;
+    const PreparedTile tile = engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, coarse);
+    ASSERT_TRUE(tile.spec) << tile.message;
+    ASSERT_TRUE(tile.spec->isosurface.colouredBy);
+    const ColourVolume& by = *tile.spec->isosurface.colouredBy;
+    EXPECT_EQ(by.dataset, status(engine, "B1").meta->key);
+    EXPECT_EQ(by.level, tile.spec->level) << "A1 has one level, B1 two: as fine as the cell itself";
+    EXPECT_EQ(by.transfer->low, 10.0) << "20, widened by half: its own range, not what was typed for A1";
+    EXPECT_EQ(by.transfer->high, 30.0);
+    view.all["technique"] = std::string("raycast");
+    EXPECT_FALSE(engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {}).spec->isosurface.colouredBy);
+}
+
 } // namespace
 } // namespace voxsheet::engine

@@ -160,5 +160,33 @@ TEST(EntryJobs, StoppingDoesNotWaitForEndlessWork) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
 }
 
+TEST(EntryJobs, OnlyWhatHasNotBegunIsDroppedAndCanBeAskedForAgain) {
+    std::promise<void> go;
+    const std::shared_future<void> released(go.get_future());
+    std::atomic<bool> begun{false};
+    std::atomic<int> told{0};
+    EntryJobs jobs(1, [&](const std::string&, bool settled) { told += settled ? 1 : 0; });
+    jobs.ensure("first", [&](const JobControl&) {
+        begun = true;
+        released.wait();
+        return metaNamed("first");
+    });
+    while (!begun)
+        std::this_thread::sleep_for(1ms);
+    jobs.ensure("second", quick("second"));
+    jobs.dropQueued("first");
+    jobs.dropQueued("second");
+    jobs.dropQueued("unknown");
+    EXPECT_TRUE(jobs.find("first"));
+    EXPECT_FALSE(jobs.find("second"));
+    go.set_value();
+    ASSERT_TRUE(jobs.waitIdle(10));
+    EXPECT_EQ(jobs.find("first")->state, DatasetState::Ready);
+    EXPECT_EQ(told, 1);
+    jobs.ensure("second", quick("second"));
+    ASSERT_TRUE(jobs.waitIdle(10));
+    EXPECT_EQ(jobs.find("second")->state, DatasetState::Ready);
+}
+
 } // namespace
 } // namespace voxsheet::engine
