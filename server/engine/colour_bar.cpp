@@ -20,37 +20,77 @@ const char* scaleName(ValueScale scale) {
     return "linear";
 }
 
-} // namespace
+using nlohmann::json;
 
-nlohmann::json describeColourBar(const CellLook& look) {
-    using nlohmann::json;
-    const TransferFunction& function = look.transfer.function;
-    const FieldMeta& field = look.meta->fields.at(static_cast<std::size_t>(look.shown.field));
+json stopsJson(const TransferFunction& function) {
     json stops = json::array();
     for (int i = 0; i < kColourBarStops; ++i) {
         const double position = static_cast<double>(i) / (kColourBarStops - 1);
         const glm::dvec4 colour = evaluateTransfer(function, transferValue(function, position));
         stops.push_back({position, colour.x, colour.y, colour.z, colour.w});
     }
-    json opacity = json::array();
-    for (const OpacityPoint& point : function.opacities)
-        opacity.push_back({point.position, point.opacity});
+    return stops;
+}
+
+json ticksJson(const TransferFunction& function) {
     json ticks = json::array();
-    for (const Tick& tick : axisTicks(function, 5)) {
+    for (const Tick& tick : axisTicks(function, 5))
         ticks.push_back({{"pos", tick.position}, {"value", tick.value}, {"label", tick.label}});
-    }
-    return {{"stops", std::move(stops)},
-            {"opacity", std::move(opacity)},
+    return ticks;
+}
+
+/// What a bar of any volume has.
+json barJson(const ResolvedTransfer& transfer, const FieldMeta& field) {
+    const TransferFunction& function = transfer.function;
+    return {{"stops", stopsJson(function)},
             {"low", transferValue(function, 0.0)},
             {"high", function.high},
             {"scale", scaleName(function.scale)},
             {"unit", field.unit},
             {"quantity", field.quantity},
             {"field", field.name},
-            {"map", look.transfer.map != nullptr ? json(look.transfer.map->name) : json(nullptr)},
-            {"diverging", look.transfer.diverging},
-            {"shared", look.sharedRange},
-            {"ticks", std::move(ticks)}};
+            {"map", transfer.map != nullptr ? json(transfer.map->name) : json(nullptr)},
+            {"ticks", ticksJson(function)}};
+}
+
+json isovaluesJson(const IsosurfaceSpec& isosurface, const TransferFunction& function) {
+    json isovalues = json::array();
+    for (const Isosurface& surface : isosurface.surfaces) {
+        const auto position = barPosition(function, surface.value);
+        const glm::dvec4 colour(surface.colour);
+        isovalues.push_back({{"value", surface.value},
+                             {"position", position ? json(*position) : json(nullptr)},
+                             {"colour", {colour.x, colour.y, colour.z}},
+                             {"opacity", colour.w}});
+    }
+    return isovalues;
+}
+
+const FieldMeta& fieldOf(const DatasetMeta& meta, const FieldAndStep& shown) {
+    return meta.fields.at(static_cast<std::size_t>(shown.field));
+}
+
+} // namespace
+
+std::optional<double> barPosition(const TransferFunction& function, double value) {
+    const double position = transferPosition(function, value);
+    if (!(position >= 0.0 && position <= 1.0)) return std::nullopt;
+    return position;
+}
+
+nlohmann::json describeColourBar(const CellLook& look) {
+    json bar = barJson(look.transfer, fieldOf(*look.meta, look.shown));
+    json opacity = json::array();
+    for (const OpacityPoint& point : look.transfer.function.opacities)
+        opacity.push_back({point.position, point.opacity});
+    bar["opacity"] = std::move(opacity);
+    bar["diverging"] = look.transfer.diverging;
+    bar["shared"] = look.sharedRange;
+    bar["isovalues"] = isovaluesJson(look.isosurface, look.transfer.function);
+    bar["colouredBy"] = nullptr;
+    if (const auto& by = look.colouredBy)
+        bar["colouredBy"] = barJson(by->transfer, fieldOf(*by->meta, by->shown));
+    return bar;
 }
 
 } // namespace voxsheet::engine

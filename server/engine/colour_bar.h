@@ -5,13 +5,21 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
+
 namespace voxsheet::engine {
+
+/// Where a value stands along the bar, [0, 1]; empty outside it.
+[[nodiscard]] std::optional<double> barPosition(const TransferFunction& function, double value);
 
 inline constexpr int kColourBarStops = 64;
 
 /// {stops: [[position, r, g, b, a]...], low, high, scale, unit, quantity, field, map, diverging, shared,
-/// opacity: [[position, opacity]...], ticks: [{pos, value, label}]}: opacity is what transfer.opacity auto
-/// came to, to be edited further.
+/// opacity: [[position, opacity]...], ticks: [{pos, value, label}], isovalues: [{value, position, colour:
+/// [r, g, b], opacity}...], colouredBy}: opacity is what transfer.opacity auto came to, to be edited further;
+/// isovalues are those of the surfaces shown, position null outside the bar; colouredBy is null, or of the
+/// volume that colours the surfaces the bar that explains them, with stops, low, high, scale, unit, quantity,
+/// field, map, ticks.
 [[nodiscard]] nlohmann::json describeColourBar(const CellLook& look);
 
 } // namespace voxsheet::engine

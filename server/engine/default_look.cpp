@@ -263,9 +263,13 @@ std::vector<OpacityPoint> defaultProjectionOpacity(const ValueSummary& summary,
     return rampPoints(distance, Ramp{0.02, 0.4}, 1.0);
 }
 
-std::vector<double> defaultIsovalues(const ValueSummary& summary) {
+std::vector<double> defaultIsovalues(const ValueSummary& summary, const ValueWindow& shown) {
     const ValueWindow window = defaultWindow(summary);
-    if (opensDiverging(summary)) return {0.25 * window.high, -0.25 * window.high};
+    if (opensDiverging(summary)) {
+        const bool bothSigns = shown.low < 0.0 && shown.high > 0.0;
+        const double quarter = 0.25 * symmetricWindow(bothSigns ? shown : window).high;
+        return {quarter, -quarter};
+    }
     if (summary.quantiles.empty()) return {(window.low + window.high) / 2.0};
     TransferFunction function;
     function.low = window.low;

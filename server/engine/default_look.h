@@ -74,10 +74,12 @@ struct ValueWindow {
 [[nodiscard]] std::vector<OpacityPoint>
 defaultProjectionOpacity(const ValueSummary& summary, const TransferFunction& function, bool signedData);
 
-/// Values whose surfaces show a structure. Signed data (rule 2): +-25 % of the symmetric window, so that both
-/// signs show alike. Others: one, where opacity begins in the default window (rule 4), that is where Otsu's
-/// threshold splits the distances from the background: the skin of a head, the shell of a molecule. Labels
-/// 0 and 1 give 0.5. A constant field gives a value that it does not have. Never empty.
-[[nodiscard]] std::vector<double> defaultIsovalues(const ValueSummary& summary);
+/// Values whose surfaces show a structure. Signed data (rule 2): +-25 % of the larger end of the range that
+/// is shown, so that both signs show alike. Others: one, where opacity begins in the default window (rule 4),
+/// that is where Otsu's threshold splits the distances from the background: the skin of a head, the shell of
+/// a molecule. Labels 0 and 1 give 0.5. A constant field gives a value that it does not have. Never empty.
+/// \param shown  what the colours span; for signed data that it does not hold on both sides of zero, the
+/// default window
+[[nodiscard]] std::vector<double> defaultIsovalues(const ValueSummary& summary, const ValueWindow& shown);
 
 } // namespace voxsheet::engine

@@ -9,6 +9,16 @@ namespace voxsheet::engine {
 
 namespace {
 
+/// Largest channel of a surface's own colour: low values are dark in most maps, and light makes them darker.
+constexpr double kBrightness = 0.85;
+
+/// Of the same hue and saturation, bright enough to show its shading.
+glm::dvec3 brightened(const glm::dvec3& rgb) {
+    const double largest = std::max({rgb.x, rgb.y, rgb.z});
+    if (largest <= 0.0) return glm::dvec3(kBrightness);
+    return largest < kBrightness ? rgb * (kBrightness / largest) : rgb;
+}
+
 /// The last one repeats.
 template <typename T>
 const T& repeating(const std::vector<T>& list, std::size_t index) {
@@ -23,7 +33,7 @@ bool hasValue(const std::vector<Isosurface>& surfaces, double value) {
 glm::vec4 surfaceColour(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
                         std::size_t surface, double value, double opacity) {
     if (style.colours.empty())
-        return glm::vec4(glm::dvec4(glm::dvec3(evaluateTransfer(function, value)), opacity));
+        return glm::vec4(glm::dvec4(brightened(glm::dvec3(evaluateTransfer(function, value))), opacity));
     const sheet::Colour& colour = repeating(style.colours, surface);
     return glm::vec4(glm::dvec4(colour.red(), colour.green(), colour.blue(), colour.alpha() * opacity));
 }
@@ -32,7 +42,8 @@ glm::vec4 surfaceColour(const sheet::IsosurfaceStyle& style, const TransferFunct
 
 std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
                                         const ValueSummary& summary) {
-    const std::vector<double> values = style.values.empty() ? defaultIsovalues(summary) : style.values;
+    const std::vector<double> values =
+        style.values.empty() ? defaultIsovalues(summary, {function.low, function.high}) : style.values;
     std::vector<Isosurface> surfaces;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double opacity = style.opacities.empty() ? 1.0 : repeating(style.opacities, i);

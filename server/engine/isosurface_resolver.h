@@ -13,7 +13,7 @@ namespace voxsheet::engine {
 /// The surfaces of isovalue in their order, each followed by its mirror image where
 /// isosurface.mirror asks for it; a value that occurs again is left out. Colours go by surface, opacities by
 /// value (a mirror image has its value's). Without values of its own: defaultIsovalues(). Without colours:
-/// the transfer function's at the value.
+/// the transfer function's at the value, at the brightness that shading needs.
 /// \param summary  as the cell's transfer function was made from: cells that share a range share isovalues
 /// Throws InvalidInput (field isovalue or isosurface.mirror) if there are more than kMaxIsosurfaces.
 [[nodiscard]] std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style,

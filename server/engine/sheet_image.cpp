@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "engine/axis_ticks.h"
 #include "engine/canvas.h"
+#include "engine/colour_bar.h"
 #include "engine/tile_identity.h"
 
 #include <algorithm>
@@ -234,12 +235,14 @@ private:
         if (!sentence.empty()) canvas.paragraph(inside, sentence, font, colours.text);
     }
 
-    /// On the picture's right edge: the colours from low to high, round numbers, and the unit.
+    /// On the picture's right edge: the colours from low to high, round numbers, isovalues, and the unit.
+    /// Where another volume colours the surfaces, it is that one's bar.
     void drawColourBar(Canvas& canvas, const DrawnCell& cell, const PixelRect& area) {
         const int font = std::max(8, layout_.fontPixels * 4 / 5);
         const int height = area.size().y * 11 / 20;
         if (height < 5 * font || area.size().x < 12 * font) return;
-        const TransferFunction& function = cell.look->transfer.function;
+        const auto& by = cell.look->colouredBy;
+        const TransferFunction& function = (by ? by->transfer : cell.look->transfer).function;
         const Palette colours = paletteFor(cell.background);
         const int width = std::max(5, font * 3 / 4);
         const int right = area.high.x - font;
@@ -255,10 +258,27 @@ private:
             canvas.text({right - width - font / 2, y}, TextAlign::Right, tick.label, font, colours.text,
                         area.size().x / 3);
         }
-        const FieldMeta& field = cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
+        if (!by) drawIsovalues(canvas, *cell.look, {{right - width, top}, {right, top + height}}, colours);
+        const FieldMeta& field =
+            by ? by->meta->fields.at(static_cast<std::size_t>(by->shown.field))
+               : cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
         std::string caption = field.unit;
-        if (cell.look->sharedRange) caption += caption.empty() ? "shared" : ", shared";
+        if (cell.look->sharedRange && !by) caption += caption.empty() ? "shared" : ", shared";
         canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet, area.size().x / 2);
+    }
+
+    /// A line across the bar at each surface's value, and its colour beside it.
+    static void drawIsovalues(Canvas& canvas, const CellLook& look, const PixelRect& bar,
+                              const Palette& colours) {
+        const int half = std::max(1, bar.size().x / 6);
+        for (const Isosurface& surface : look.isosurface.surfaces) {
+            const auto position = barPosition(look.transfer.function, surface.value);
+            if (!position) continue;
+            const int y = bar.low.y + static_cast<int>((1.0 - *position) * (bar.size().y - 1));
+            canvas.fill({{bar.low.x, y}, {bar.high.x, y + 1}}, colours.text);
+            canvas.fill({{bar.high.x, y - half}, {bar.high.x + 4 * half, y + half + 1}},
+                        {glm::vec3(surface.colour), 1.0F});
+        }
     }
 
     const SheetImageRequest& request_;

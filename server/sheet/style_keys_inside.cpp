@@ -18,7 +18,7 @@ void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
     add(choice("isosurface.mirror", {"off", "on"}, "off", group,
                "Shows every isovalue v also as -v: one control for both signs."));
     KeySpec colours = typed("isosurface.colors", KeyType::Colours, Automatic{}, group, "swatches",
-                            "ColourList of the surfaces in the order of the isovalues, the last one for all "
+                            "Colours of the surfaces in the order of the isovalues, the last one for all "
                             "that follow; auto: those of the "
                             "transfer function.");
     add(withAuto(std::move(colours)));

@@ -423,5 +423,32 @@ TEST_F(EngineTest, SurfacesColouredByAnotherCellSpanThatCellsValues) {
     EXPECT_FALSE(engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {}).spec->isosurface.colouredBy);
 }
 
+TEST_F(EngineTest, TheColourBarMarksTheSurfacesAndExplainsWhatColoursThem) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {8, 8, 8}, 40))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    const auto bar = [&] { return engine.colourBar("", {0, 0}, view); };
+    EXPECT_TRUE(bar().at("isovalues").empty());
+    EXPECT_TRUE(bar().at("colouredBy").is_null());
+    view.all = {{"technique", std::string("isosurface")},
+                {"isovalue", sheet::NumberTable{{{7.5}, {99.0}}}},
+                {"isosurface.opacity", sheet::NumberTable{{{0.5}}}}};
+    const auto marked = bar();
+    ASSERT_EQ(marked.at("isovalues").size(), 2U);
+    EXPECT_EQ(marked["isovalues"][0].at("value"), 7.5);
+    EXPECT_EQ(marked["isovalues"][0].at("position"), 0.25) << "the bar spans 5 to 15";
+    EXPECT_EQ(marked["isovalues"][0].at("opacity"), 0.5);
+    EXPECT_EQ(marked["isovalues"][0].at("colour").size(), 3U);
+    EXPECT_TRUE(marked["isovalues"][1].at("position").is_null());
+    view.all["isosurface.colorBy"] = std::string("B1");
+    const auto coloured = bar().at("colouredBy");
+    EXPECT_EQ(coloured.at("low"), 20.0);
+    EXPECT_EQ(coloured.at("high"), 60.0);
+    EXPECT_EQ(coloured.at("stops").size(), 64U);
+    EXPECT_FALSE(coloured.at("ticks").empty());
+}
+
 } // namespace
 } // namespace voxsheet::engine

@@ -56,29 +56,44 @@ TEST(IsosurfaceResolver, TheDefaultValueLiesBetweenABodyAndTheAir) {
     ASSERT_EQ(surfaces.size(), 1U);
     EXPECT_GT(surfaces[0].value, 20.0);
     EXPECT_LT(surfaces[0].value, 80.0);
-    // The transfer function's colour at the value.
-    EXPECT_NEAR(surfaces[0].colour.x, surfaces[0].value / 100.0, 1e-6);
     EXPECT_EQ(surfaces[0].colour.w, 1.0F);
+}
+
+TEST(IsosurfaceResolver, TheTransferFunctionsColourIsMadeBrightEnoughForTheLight) {
+    TransferFunction function = greyOver(0.0, 1.0);
+    function.colours = {{0.0, {0.1, 0.2, 0.4}}, {0.5, {0.0, 0.0, 0.0}}, {1.0, {0.3, 1.0, 0.5}}};
+    sheet::IsosurfaceStyle style;
+    style.values = {0.0, 0.5, 1.0};
+    const auto surfaces = resolveSurfaces(style, function, bodyInAir());
+    const glm::vec3 dark(surfaces[0].colour);
+    EXPECT_GT(dark.z, 0.8F);
+    EXPECT_NEAR(dark.x / dark.z, 0.25F, 1e-6F) << "the same hue";
+    EXPECT_NEAR(dark.y / dark.z, 0.5F, 1e-6F);
+    EXPECT_GT(surfaces[1].colour.x, 0.8F) << "black has no hue: grey";
+    EXPECT_EQ(glm::vec3(surfaces[2].colour), glm::vec3(0.3F, 1.0F, 0.5F)) << "bright as it is";
 }
 
 TEST(IsosurfaceResolver, SignedDataShowBothSignsAlike) {
     const ValueSummary summary = signedNoise();
-    const ValueWindow window = defaultWindow(summary);
-    const auto values = valuesOf(resolveSurfaces({}, greyOver(-3.0, 3.0), summary));
-    EXPECT_EQ(values, (std::vector<double>{0.25 * window.high, -0.25 * window.high}));
+    const auto values = valuesOf(resolveSurfaces({}, greyOver(-2.0, 3.0), summary));
+    EXPECT_EQ(values, (std::vector<double>{0.75, -0.75}));
+    const double window = defaultWindow(summary).high;
+    EXPECT_EQ(valuesOf(resolveSurfaces({}, greyOver(1.0, 3.0), summary)),
+              (std::vector<double>{0.25 * window, -0.25 * window}))
+        << "the range holds one sign only";
     sheet::IsosurfaceStyle mirrored;
     mirrored.mirror = true;
-    EXPECT_EQ(valuesOf(resolveSurfaces(mirrored, greyOver(-3.0, 3.0), summary)), values);
+    EXPECT_EQ(valuesOf(resolveSurfaces(mirrored, greyOver(-2.0, 3.0), summary)), values);
 }
 
 TEST(IsosurfaceResolver, LabelsOfTwoValuesAreSplitInTheMiddleAndConstantsStayEmpty) {
     std::vector<float> labels(1000, 0.0F);
     std::fill(labels.begin(), labels.begin() + 20, 1.0F);
-    EXPECT_NEAR(defaultIsovalues(summaryOf(labels)).front(), 0.5, 0.05);
-    const double value = defaultIsovalues(summaryOf(std::vector<float>(100, 7.0F))).front();
+    EXPECT_NEAR(defaultIsovalues(summaryOf(labels), {}).front(), 0.5, 0.05);
+    const double value = defaultIsovalues(summaryOf(std::vector<float>(100, 7.0F)), {}).front();
     EXPECT_NE(value, 7.0);
     EXPECT_TRUE(std::isfinite(value));
-    EXPECT_TRUE(std::isfinite(defaultIsovalues(ValueSummary{}).front()));
+    EXPECT_TRUE(std::isfinite(defaultIsovalues(ValueSummary{}, {}).front()));
 }
 
 TEST(IsosurfaceResolver, MirrorGivesEachValueItsNegativeOnce) {
