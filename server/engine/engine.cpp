@@ -23,6 +23,20 @@ fs::path freeFile(const fs::path& folder, const std::string& name) {
     return file;
 }
 
+const char* hitName(HitKind kind) {
+    switch (kind) {
+    case HitKind::Isosurface:
+        return "isosurface";
+    case HitKind::Face:
+        return "face";
+    case HitKind::Sample:
+        return "sample";
+    case HitKind::Middle:
+        break;
+    }
+    return "middle";
+}
+
 } // namespace
 
 Engine::Engine(EngineOptions options)
@@ -178,9 +192,18 @@ std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const s
     const PreparedTile tile = implementation_->tiles.prepare(*now, index, cell, view, quality, contents);
     if (!tile.spec) return {};
     const DatasetMeta& meta = *contentAt(*contents, {index, cell}).meta;
-    const auto world = implementation_->probes.underPixel(*tile.spec, meta, pixel);
-    if (!world) return {};
-    return implementation_->probes.atWorld(*now, index, view, *contents, *world);
+    const auto opacity =
+        sheet::resolveStyle(keys(), now->sheets[index], cell, {view.all, view.cells, view.request})
+            .style.probeOpacity;
+    const auto hit = implementation_->probes.underPixel(*tile.spec, meta, pixel, opacity);
+    if (!hit) return {};
+    auto values = implementation_->probes.atWorld(*now, index, view, *contents, hit->world);
+    for (ProbeValue& value : values) {
+        if (value.cell != cell) continue;
+        value.hit = hitName(hit->kind);
+        value.isovalue = hit->isovalue;
+    }
+    return values;
 }
 
 nlohmann::json Engine::colourBar(const std::string& sheetName, const sheet::Address& cell,

@@ -122,6 +122,11 @@ struct ProbeValue {
     glm::ivec3 index{0}; ///< nearest sample
     std::string unit;
     std::string note;
+    /// Of the cell whose picture was probed: what lies under the pixel. "isosurface", "face" (of the box, a
+    /// cut, or a clip object), "sample", "middle" (nothing is opaque enough: the point nearest to the middle
+    /// of the box). Empty for other cells and for points of the world.
+    std::string hit;
+    std::optional<double> isovalue; ///< of the surface, when an isosurface was hit
 };
 
 struct SheetImageRequest {

@@ -8,106 +8,216 @@ namespace voxsheet::engine {
 
 namespace {
 
+constexpr int kBisections = 20; ///< 1e-6 of a step
+constexpr int kMaxSteps = 100'000;
+
 double opacityOf(const TransferTable& table, double value) {
     return std::isnan(value) ? 0.0 : classify(table, value).w;
 }
 
+/// Where a value makes a cut show a cap: renderer/stages/isosurface_spec.h.
+class CapTest {
+public:
+    explicit CapTest(const IsosurfaceSpec& isosurface) {
+        for (const Isosurface& surface : isosurface.surfaces) {
+            if (surface.value > 0.0) above_ = std::min(above_, surface.value);
+            if (surface.value < 0.0) below_ = std::max(below_, surface.value);
+            smallest_ = std::min(smallest_, surface.value);
+        }
+        const bool neither = std::isinf(above_) && std::isinf(below_);
+        if (neither) above_ = smallest_;
+        enabled_ = isosurface.caps;
+    }
+    /// False for NaN.
+    [[nodiscard]] bool shows(double value) const { return enabled_ && (value >= above_ || value <= below_); }
+
+private:
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    double above_ = kInfinity;
+    double below_ = -kInfinity;
+    double smallest_ = kInfinity;
+    bool enabled_ = false;
+};
+
+/// One ray through one picture.
+class RayProbe {
+public:
+    RayProbe(const TileSpec& tile, const ProbedVolumes& volumes, glm::dvec2 pixel)
+        : tile_(tile), volumes_(volumes), ray_(pixelRay(tile.camera, pixel, tile.sizePixels)),
+          textureFromWorld_(glm::inverse(worldFromTexture(volumes.grid))),
+          kept_(keptSpan(ray_, volumes.grid, tile.clip.planes)) {
+        if (tile.clip.object) object_.emplace(ray_, *tile.clip.object, *volumes.object);
+        const glm::dvec3 texelsPerLength =
+            glm::dvec3(textureFromWorld_ * glm::dvec4(ray_.direction, 0.0)) * glm::dvec3(volumes.level.dims);
+        const double step = 0.5 / std::max(glm::length(texelsPerLength), 1e-300);
+        if (!kept_) return;
+        steps_ = static_cast<int>(std::clamp(std::ceil(span().length() / step), 1.0, double{kMaxSteps}));
+        step_ = span().length() / steps_;
+    }
+
+    [[nodiscard]] std::optional<PixelHit> hit(std::optional<double> opacity) const {
+        if (!kept_) return std::nullopt;
+        switch (tile_.technique) {
+        case Technique::Isosurface:
+            return crossingOrMiddle();
+        case Technique::Surface:
+            return face();
+        case Technique::Mip:
+            return largest();
+        case Technique::Slices:
+        case Technique::Raycast:
+            break;
+        }
+        return opacity ? firstOpaque(*opacity) : halfOpaque();
+    }
+
+private:
+    [[nodiscard]] const RaySpan& span() const { return kept_->span; }
+    [[nodiscard]] RaySpan stretch(int i) const {
+        return {span().begin + i * step_, i + 1 == steps_ ? span().end : span().begin + (i + 1) * step_};
+    }
+    [[nodiscard]] std::optional<RaySpan> keptPart(const RaySpan& stretch) const {
+        return object_ ? object_->keptPart(stretch) : stretch;
+    }
+    [[nodiscard]] bool keeps(double depth) const { return !object_ || object_->keeps(depth); }
+    [[nodiscard]] double value(double depth) const {
+        return static_cast<double>(
+            volumes_.level.at(glm::dvec3(textureFromWorld_ * glm::dvec4(ray_.at(depth), 1.0))));
+    }
+    [[nodiscard]] PixelHit at(double depth, HitKind kind) const { return {ray_.at(depth), kind, {}, depth}; }
+
+    /// Front to back over the middles of the kept stretches, until `seen(depth, length)` says enough.
+    template <typename Seen>
+    [[nodiscard]] std::optional<double> firstSample(const Seen& seen) const {
+        for (int i = 0; i < steps_; ++i) {
+            const auto part = keptPart(stretch(i));
+            if (!part) continue;
+            const double middle = part->begin + 0.5 * part->length();
+            if (seen(middle, part->length())) return middle;
+        }
+        return std::nullopt;
+    }
+
+    /// The kept sample nearest to the middle of the box.
+    [[nodiscard]] std::optional<PixelHit> middle() const {
+        const double wanted = glm::dot(centreWorld(volumes_.grid) - ray_.origin, ray_.direction);
+        if (wanted >= span().begin && wanted <= span().end && keeps(wanted))
+            return at(wanted, HitKind::Middle);
+        std::optional<double> nearest;
+        static_cast<void>(firstSample([&](double depth, double) {
+            if (!nearest || std::abs(depth - wanted) < std::abs(*nearest - wanted)) nearest = depth;
+            return false;
+        }));
+        return nearest ? std::optional(at(*nearest, HitKind::Middle)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<PixelHit> halfOpaque() const {
+        double transmittance = 1.0;
+        const auto depth = firstSample([&](double middle, double length) {
+            const double opacity = opacityOf(*tile_.transfer, value(middle));
+            transmittance *= std::pow(1.0 - opacity, length / tile_.unitLengthWorld);
+            return transmittance < 0.5;
+        });
+        return depth ? at(*depth, HitKind::Sample) : middle();
+    }
+
+    [[nodiscard]] std::optional<PixelHit> firstOpaque(double opacity) const {
+        const auto depth = firstSample([&](double middle, double) {
+            const double sample = value(middle);
+            return !std::isnan(sample) && opacityOf(*tile_.transfer, sample) >= opacity;
+        });
+        return depth ? at(*depth, HitKind::Sample) : middle();
+    }
+
+    [[nodiscard]] std::optional<PixelHit> largest() const {
+        double largest = -std::numeric_limits<double>::infinity();
+        std::optional<double> depth;
+        for (int i = 0; i < steps_; ++i) {
+            const RaySpan whole = stretch(i);
+            const double middle = whole.begin + 0.5 * whole.length();
+            const double sample = value(middle);
+            if (!(sample > largest) || !keeps(middle)) continue;
+            largest = sample;
+            depth = middle;
+        }
+        return depth ? std::optional(at(*depth, HitKind::Sample)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<PixelHit> face() const {
+        if (!kept_->atEye && keeps(span().begin)) return at(span().begin, HitKind::Face);
+        for (int i = 0; object_ && i < steps_; ++i) {
+            if (const auto entry = object_->entry(stretch(i))) return at(*entry, HitKind::Face);
+        }
+        if (kept_->atEye && keeps(span().end)) return at(span().end, HitKind::Face);
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<PixelHit> crossingOrMiddle() const {
+        const CapTest caps(tile_.isosurface);
+        const bool openCut = kept_->cut && keeps(span().begin);
+        if (openCut && caps.shows(value(span().begin))) return at(span().begin, HitKind::Face);
+        for (int i = 0; i < steps_; ++i) {
+            auto first = crossingIn(stretch(i));
+            const auto entry = object_ ? object_->entry(stretch(i)) : std::nullopt;
+            if (entry && caps.shows(value(*entry)) && !(first && first->depth < *entry))
+                first = at(*entry, HitKind::Face);
+            if (first) return first;
+        }
+        return middle();
+    }
+
+    /// The first kept crossing of any visible surface.
+    [[nodiscard]] std::optional<PixelHit> crossingIn(const RaySpan& stretch) const {
+        std::optional<PixelHit> first;
+        for (const Isosurface& surface : tile_.isosurface.surfaces) {
+            if (surface.colour.w <= 0.0F) continue;
+            const auto depth = firstCrossing([this](double s) { return value(s); }, surface.value, stretch,
+                                             stretch.length());
+            if (!depth || !keeps(*depth) || (first && first->depth <= *depth)) continue;
+            first = at(*depth, HitKind::Isosurface);
+            first->isovalue = surface.value;
+        }
+        return first;
+    }
+
+    const TileSpec& tile_;
+    const ProbedVolumes& volumes_;
+    Ray ray_;
+    glm::dmat4 textureFromWorld_;
+    std::optional<KeptSpan> kept_;
+    std::optional<ObjectCut> object_;
+    int steps_ = 0;
+    double step_ = 0.0; ///< half a voxel of the level at most
+};
+
 } // namespace
 
-float LevelSamples::at(const glm::dvec3& texture) const {
-    const glm::dvec3 p = texture * glm::dvec3(dims) - 0.5;
-    const glm::dvec3 base = glm::floor(p);
-    const glm::dvec3 w = p - base;
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        glm::ivec3 index(base);
-        double weight = 1.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const bool next = ((corner >> axis) & 1) != 0;
-            index[axis] += next ? 1 : 0;
-            weight *= next ? w[axis] : 1.0 - w[axis];
-            if (periodic[axis]) {
-                index[axis] = ((index[axis] % dims[axis]) + dims[axis]) % dims[axis];
-            } else {
-                index[axis] = std::clamp(index[axis], 0, dims[axis] - 1);
-            }
-        }
-        const auto at = (static_cast<std::size_t>(index.z) * static_cast<std::size_t>(dims.y) +
-                         static_cast<std::size_t>(index.y)) *
-                            static_cast<std::size_t>(dims.x) +
-                        static_cast<std::size_t>(index.x);
-        if (weight > 0.0) sum += weight * static_cast<double>(values[at]);
-    }
-    return static_cast<float>(sum);
+std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes, glm::dvec2 pixel,
+                                 std::optional<double> opacity) {
+    return RayProbe(tile, volumes, pixel).hit(opacity);
 }
 
-Ray pixelRay(const CameraSpec& camera, glm::dvec2 pixel, glm::ivec2 sizePixels) {
-    const glm::dmat4 worldFromView = glm::inverse(camera.viewFromWorld);
-    const double aspect = static_cast<double>(sizePixels.x) / static_cast<double>(sizePixels.y);
-    const glm::dvec2 ndc(2.0 * pixel.x / sizePixels.x - 1.0, 1.0 - 2.0 * pixel.y / sizePixels.y);
-    glm::dvec4 origin(0.0, 0.0, 0.0, 1.0);
-    glm::dvec4 direction(0.0, 0.0, -1.0, 0.0);
-    if (camera.projection == Projection::Perspective) {
-        const double half = std::tan(glm::radians(camera.fovYDegrees) / 2.0);
-        direction = {ndc.x * half * aspect, ndc.y * half, -1.0, 0.0};
-    } else {
-        origin = {ndc.x * camera.heightWorld / 2.0 * aspect, ndc.y * camera.heightWorld / 2.0, 0.0, 1.0};
-    }
-    return {glm::dvec3(worldFromView * origin), glm::normalize(glm::dvec3(worldFromView * direction))};
-}
-
-std::optional<RaySpan> spanInBox(const Ray& ray, const Grid& grid) {
-    const glm::dmat4 indexFromWorld = glm::inverse(grid.worldFromIndex);
-    const glm::dvec3 origin(indexFromWorld * glm::dvec4(ray.origin, 1.0));
-    const glm::dvec3 direction(indexFromWorld * glm::dvec4(ray.direction, 0.0));
-    const IndexBox box = boxIndex(grid);
-    RaySpan span{0.0, std::numeric_limits<double>::infinity()};
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0.0) {
-            if (origin[axis] < box.low[axis] || origin[axis] > box.high[axis]) return std::nullopt;
+std::optional<double> firstCrossing(const std::function<double(double)>& valueAt, double isovalue,
+                                    const RaySpan& span, double step) {
+    const int steps = static_cast<int>(std::clamp(std::ceil(span.length() / step), 1.0, double{kMaxSteps}));
+    double near = span.begin;
+    double atNear = valueAt(near) - isovalue;
+    for (int i = 1; i <= steps; ++i) {
+        double far = span.begin + span.length() * i / steps;
+        const double atFar = valueAt(far) - isovalue;
+        const bool crosses = !std::isnan(atNear) && !std::isnan(atFar) && (atNear < 0.0) != (atFar < 0.0);
+        if (!crosses) {
+            near = far;
+            atNear = atFar;
             continue;
         }
-        const double a = (box.low[axis] - origin[axis]) / direction[axis];
-        const double b = (box.high[axis] - origin[axis]) / direction[axis];
-        span.enter = std::max(span.enter, std::min(a, b));
-        span.leave = std::min(span.leave, std::max(a, b));
-    }
-    if (span.enter >= span.leave) return std::nullopt;
-    return span;
-}
-
-std::optional<glm::dvec3> pointUnderPixel(const TileSpec& tile, const Grid& grid, const LevelSamples& level,
-                                          glm::dvec2 pixel) {
-    const Ray ray = pixelRay(tile.camera, pixel, tile.sizePixels);
-    const auto span = spanInBox(ray, grid);
-    if (!span) return std::nullopt;
-    const glm::dmat4 textureFromWorld = glm::inverse(worldFromTexture(grid));
-    const glm::dvec3 perLength =
-        glm::dvec3(textureFromWorld * glm::dvec4(ray.direction, 0.0)) * glm::dvec3(level.dims);
-    const double step = 0.5 / std::max(glm::length(perLength), 1e-300);
-    const int steps =
-        std::max(1, static_cast<int>(std::min(1e5, std::ceil((span->leave - span->enter) / step))));
-    const double length = (span->leave - span->enter) / steps;
-    double transmittance = 1.0;
-    double largest = -std::numeric_limits<double>::infinity();
-    std::optional<glm::dvec3> largestAt;
-    for (int i = 0; i < steps; ++i) {
-        const glm::dvec3 world = ray.origin + (span->enter + (i + 0.5) * length) * ray.direction;
-        const auto value =
-            static_cast<double>(level.at(glm::dvec3(textureFromWorld * glm::dvec4(world, 1.0))));
-        if (tile.technique == Technique::Mip) {
-            if (value > largest) {
-                largest = value;
-                largestAt = world;
-            }
-            continue;
+        for (int k = 0; k < kBisections; ++k) {
+            const double middle = 0.5 * (near + far);
+            ((valueAt(middle) - isovalue < 0.0) == (atNear < 0.0) ? near : far) = middle;
         }
-        transmittance *= std::pow(1.0 - opacityOf(*tile.transfer, value), length / tile.unitLengthWorld);
-        if (transmittance < 0.5) return world;
+        return 0.5 * (near + far);
     }
-    if (largestAt) return largestAt;
-    const double middle = glm::dot(centreWorld(grid) - ray.origin, ray.direction);
-    return ray.origin + std::clamp(middle, span->enter, span->leave) * ray.direction;
+    return std::nullopt;
 }
 
 } // namespace voxsheet::engine

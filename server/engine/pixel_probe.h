@@ -1,46 +1,50 @@
 // What lies under a pixel of a cell's picture.
 #pragma once
 
+#include "engine/kept_ray.h"
+#include "engine/level_samples.h"
 #include "stages/tile_spec.h"
 #include "volume/grid.h"
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <optional>
-#include <vector>
 
 namespace voxsheet::engine {
 
-/// One level of a field, in memory.
-struct LevelSamples {
-    glm::ivec3 dims{1};
-    glm::bvec3 periodic{false};
-    std::vector<float> values; ///< x fastest
-
-    /// Trilinear at a texture coordinate; NaN if one of the eight is NaN.
-    [[nodiscard]] float at(const glm::dvec3& texture) const;
+enum class HitKind {
+    Isosurface, ///< a surface of the isosurface technique
+    Face,       ///< a face of the box, a cut, or the surface of a clip object
+    Sample,     ///< a sample of a volume
+    Middle      ///< nothing along the ray is opaque enough: the kept point nearest to the middle of the box
 };
 
-/// A ray of the world, `direction` of unit length.
-struct Ray {
-    glm::dvec3 origin{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};
+struct PixelHit {
+    glm::dvec3 world{0.0};
+    HitKind kind = HitKind::Middle;
+    std::optional<double> isovalue; ///< Isosurface
+    double depth = 0.0;             ///< along pixelRay
 };
 
-/// Through the point `pixel` of a picture, (0, 0) its top left corner.
-[[nodiscard]] Ray pixelRay(const CameraSpec& camera, glm::dvec2 pixel, glm::ivec2 sizePixels);
-
-/// Where the ray is inside the drawn box: distances from its origin, not behind it. Empty if it misses.
-struct RaySpan {
-    double enter = 0.0;
-    double leave = 0.0;
+/// The volumes that a picture is made of.
+struct ProbedVolumes {
+    const Grid& grid;            ///< of the drawn volume
+    const LevelSamples& level;   ///< any level of it
+    const ObjectSamples* object; ///< not null if tile.clip.object is set
 };
-[[nodiscard]] std::optional<RaySpan> spanInBox(const Ray& ray, const Grid& grid);
 
-/// The point that the eye sees: where the accumulated opacity passes one half; for maximum intensity
-/// projection the largest value; if nothing along the ray is that opaque, the point nearest to the middle
-/// of the box. Empty if the ray misses it.
-[[nodiscard]] std::optional<glm::dvec3> pointUnderPixel(const TileSpec& tile, const Grid& grid,
-                                                        const LevelSamples& level, glm::dvec2 pixel);
+/// The point that the eye sees, among what clipping keeps: an isosurface's first crossing (or a cap before
+/// it); the face that technique surface shows; maximum intensity projection's largest sample; of volume
+/// rendering the first sample of at least the given opacity, or where the accumulated opacity passes one
+/// half. Empty where the ray meets nothing.
+/// \param opacity  per unit length, as in the transfer function
+[[nodiscard]] std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes,
+                                               glm::dvec2 pixel, std::optional<double> opacity = {});
+
+/// The first crossing of a value between two depths, from sign changes between steps, each found to within
+/// 1e-6 of a step; where the function is NaN there is none.
+[[nodiscard]] std::optional<double> firstCrossing(const std::function<double(double depth)>& valueAt,
+                                                  double isovalue, const RaySpan& span, double step);
 
 } // namespace voxsheet::engine

@@ -4,6 +4,7 @@
 #include "engine/sample_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxsheet::engine {
 
@@ -44,15 +45,51 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
     return values;
 }
 
-std::optional<glm::dvec3> ProbeService::underPixel(const TileSpec& tile, const DatasetMeta& meta,
-                                                   glm::dvec2 pixel) {
-    return pointUnderPixel(tile, meta.grid, *levelFor(meta, tile.field, tile.step), pixel);
+std::optional<PixelHit> ProbeService::underPixel(const TileSpec& tile, const DatasetMeta& meta,
+                                                 glm::dvec2 pixel, std::optional<double> opacity) {
+    const Level level = levelFor(meta, tile.field, tile.step);
+    std::optional<ObjectSamples> object;
+    if (tile.clip.object) object = objectOf(*tile.clip.object);
+    auto hit = pixelHit(tile, {meta.grid, *level.samples, object ? &*object : nullptr}, pixel, opacity);
+    if (hit && hit->kind == HitKind::Isosurface && level.key.level > 0)
+        refine(*hit, tile, meta, pixelRay(tile.camera, pixel, tile.sizePixels), level.key.level);
+    return hit;
 }
 
-std::shared_ptr<const LevelSamples> ProbeService::levelFor(const DatasetMeta& meta, int field, int step) {
+void ProbeService::refine(PixelHit& hit, const TileSpec& tile, const DatasetMeta& meta, const Ray& ray,
+                          int level) const {
+    const glm::dmat4 indexFromWorld = glm::inverse(meta.grid.worldFromIndex);
+    const double voxel = 1.0 / glm::length(glm::dvec3(indexFromWorld * glm::dvec4(ray.direction, 0.0)));
+    const double reach = 2.0 * std::ldexp(voxel, level);
+    const auto kept = keptSpan(ray, meta.grid, tile.clip.planes);
+    if (!kept) return;
+    const RaySpan nearby{std::max(kept->span.begin, hit.depth - reach),
+                         std::min(kept->span.end, hit.depth + reach)};
+    if (nearby.begin >= nearby.end) return;
+    Level0Reader samples(*volumes_, meta, tile.field, tile.step);
+    const auto depth = firstCrossing(
+        [&](double s) {
+            return samples.interpolated(glm::dvec3(indexFromWorld * glm::dvec4(ray.at(s), 1.0)));
+        },
+        *hit.isovalue, nearby, 0.5 * voxel);
+    if (!depth) return;
+    hit.depth = *depth;
+    hit.world = ray.at(*depth);
+}
+
+ObjectSamples ProbeService::objectOf(const ClipObject& object) {
+    const auto meta = volumes_->describe(object.dataset);
+    return {meta->grid, samplesOf(*meta, {meta->key, 0, 0, 0})};
+}
+
+ProbeService::Level ProbeService::levelFor(const DatasetMeta& meta, int field, int step) {
     VolumeKey key{meta.key, field, step, 0};
     while (key.level + 1 < meta.levels() && sampleCount(levelDims(meta.grid.dims, key.level)) > kLevelSamples)
         ++key.level;
+    return {key, samplesOf(meta, key)};
+}
+
+std::shared_ptr<const LevelSamples> ProbeService::samplesOf(const DatasetMeta& meta, const VolumeKey& key) {
     {
         const std::lock_guard lock(mutex_);
         const auto found =

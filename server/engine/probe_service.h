@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/pixel_probe.h"
 #include "engine/tile_maker.h"
+#include "volume/clip_shape_provider.h"
 
 #include <list>
 #include <memory>
@@ -15,22 +16,35 @@ namespace voxsheet::engine {
 class ProbeService {
 public:
     ProbeService(const sheet::KeyTable& keys, std::shared_ptr<const VolumeProvider> volumes)
-        : keys_(keys), volumes_(std::move(volumes)) {}
+        : keys_(keys), volumes_(std::make_shared<const ClipShapeProvider>(std::move(volumes))) {}
 
     /// One value per cell of the sheet that has a source, in reading order.
     [[nodiscard]] std::vector<ProbeValue> atWorld(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                                   const View& view, const CellContents& contents,
                                                   const glm::dvec3& world) const;
 
-    /// The world point under a pixel of a tile; empty if the ray misses the volume.
-    [[nodiscard]] std::optional<glm::dvec3> underPixel(const TileSpec& tile, const DatasetMeta& meta,
-                                                       glm::dvec2 pixel);
+    /// What lies under a pixel of a tile; empty if the ray meets nothing. An isosurface's crossing is one of
+    /// level 0, whatever the level that is drawn.
+    /// \param opacity  as pixelHit()
+    [[nodiscard]] std::optional<PixelHit> underPixel(const TileSpec& tile, const DatasetMeta& meta,
+                                                     glm::dvec2 pixel, std::optional<double> opacity);
 
 private:
     static constexpr long kLevelSamples = 2'500'000; ///< of a level that is kept for rays
-    static constexpr std::size_t kLevels = 4;
+    static constexpr std::size_t kLevels = 6;
 
-    [[nodiscard]] std::shared_ptr<const LevelSamples> levelFor(const DatasetMeta& meta, int field, int step);
+    struct Level {
+        VolumeKey key;
+        std::shared_ptr<const LevelSamples> samples;
+    };
+    /// The finest level that is small enough.
+    [[nodiscard]] Level levelFor(const DatasetMeta& meta, int field, int step);
+    [[nodiscard]] std::shared_ptr<const LevelSamples> samplesOf(const DatasetMeta& meta,
+                                                                const VolumeKey& key);
+    [[nodiscard]] ObjectSamples objectOf(const ClipObject& object);
+    /// Moves a crossing that was found on a coarse level to level 0's, if there is one nearby.
+    void refine(PixelHit& hit, const TileSpec& tile, const DatasetMeta& meta, const Ray& ray,
+                int level) const;
 
     const sheet::KeyTable& keys_;
     std::shared_ptr<const VolumeProvider> volumes_;

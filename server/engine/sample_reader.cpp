@@ -10,7 +10,7 @@ namespace voxsheet::engine {
 
 namespace {
 
-int wrapped(int index, int size, bool periodic) {
+int wrappedOnAxis(int index, int size, bool periodic) {
     if (!periodic) return std::clamp(index, 0, size - 1);
     const int rest = index % size;
     return rest < 0 ? rest + size : rest;
@@ -19,37 +19,6 @@ int wrapped(int index, int size, bool periodic) {
 std::optional<double> finite(double value) {
     return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
-
-/// The slices that one point touches, read on demand: at most two.
-class SliceCache {
-public:
-    SliceCache(const VolumeProvider& volumes, const DatasetMeta& meta, int field, int step)
-        : volumes_(volumes), meta_(meta), key_{meta.key, field, step, 0} {}
-
-    double at(const glm::ivec3& index) {
-        for (Slice& slice : slices_) {
-            if (slice.z == index.z) return pick(slice, index);
-        }
-        Slice& slice = slices_[next_++ % slices_.size()];
-        slice = {index.z, readValues(volumes_, meta_, key_, index.z, 1)};
-        return pick(slice, index);
-    }
-
-private:
-    struct Slice {
-        int z = -1;
-        std::vector<double> values;
-    };
-    double pick(const Slice& slice, const glm::ivec3& index) const {
-        return slice.values[static_cast<std::size_t>(index.y) * static_cast<std::size_t>(meta_.grid.dims.x) +
-                            static_cast<std::size_t>(index.x)];
-    }
-    const VolumeProvider& volumes_;
-    const DatasetMeta& meta_;
-    VolumeKey key_;
-    std::array<Slice, 2> slices_;
-    std::size_t next_ = 0;
-};
 
 } // namespace
 
@@ -101,27 +70,43 @@ std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const Data
     for (int axis = 0; axis < 3; ++axis) {
         if (!(p[axis] >= box.low[axis] - 1e-9 && p[axis] <= box.high[axis] + 1e-9)) return std::nullopt;
     }
-    const auto at = [&](const glm::ivec3& index) {
-        return glm::ivec3(wrapped(index.x, grid.dims.x, grid.periodic.x),
-                          wrapped(index.y, grid.dims.y, grid.periodic.y),
-                          wrapped(index.z, grid.dims.z, grid.periodic.z));
-    };
-    SliceCache slices(volumes, meta, field, step);
+    Level0Reader samples(volumes, meta, field, step);
     PointSample sample;
-    sample.nearest = at(glm::ivec3(glm::floor(p + 0.5)));
-    sample.value = finite(slices.at(sample.nearest));
-    const glm::ivec3 base(glm::floor(p));
-    const glm::dvec3 w = p - glm::dvec3(base);
+    sample.nearest = samples.wrapped(glm::ivec3(glm::floor(p + 0.5)));
+    sample.value = finite(samples.at(sample.nearest));
+    sample.interpolated = finite(samples.interpolated(p));
+    return sample;
+}
+
+glm::ivec3 Level0Reader::wrapped(const glm::ivec3& index) const {
+    const Grid& grid = meta_.grid;
+    glm::ivec3 inside;
+    for (int axis = 0; axis < 3; ++axis)
+        inside[axis] = wrappedOnAxis(index[axis], grid.dims[axis], grid.periodic[axis]);
+    return inside;
+}
+
+double Level0Reader::at(const glm::ivec3& index) {
+    const glm::ivec3 inside = wrapped(index);
+    auto slice = slices_.find(inside.z);
+    if (slice == slices_.end())
+        slice = slices_.emplace(inside.z, readValues(volumes_, meta_, key_, inside.z, 1)).first;
+    return slice->second[static_cast<std::size_t>(inside.y) * static_cast<std::size_t>(meta_.grid.dims.x) +
+                         static_cast<std::size_t>(inside.x)];
+}
+
+double Level0Reader::interpolated(const glm::dvec3& indexPoint) {
+    const glm::ivec3 base(glm::floor(indexPoint));
+    const glm::dvec3 w = indexPoint - glm::dvec3(base);
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::ivec3 offset(corner & 1, (corner >> 1) & 1, corner >> 2);
         double weight = 1.0;
         for (int axis = 0; axis < 3; ++axis)
             weight *= offset[axis] != 0 ? w[axis] : 1.0 - w[axis];
-        if (weight > 0.0) sum += weight * slices.at(at(base + offset));
+        if (weight > 0.0) sum += weight * at(base + offset);
     }
-    sample.interpolated = finite(sum);
-    return sample;
+    return sum;
 }
 
 } // namespace voxsheet::engine

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,27 @@ namespace voxsheet::engine {
 inline constexpr long kSummarySamples = 300'000;
 [[nodiscard]] ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& meta, int field,
                                           int step);
+
+/// Level-0 values at single points, read slice by slice as they are needed, and kept. Keeps references:
+/// outlived by its arguments.
+class Level0Reader {
+public:
+    Level0Reader(const VolumeProvider& volumes, const DatasetMeta& meta, int field, int step)
+        : volumes_(volumes), meta_(meta), key_{meta.key, field, step, 0} {}
+
+    /// Of a sample; an index beyond the ends is the nearest one, or wraps. Throws as readValues.
+    [[nodiscard]] double at(const glm::ivec3& index);
+    /// Trilinear at a point of the index frame; NaN if one of the eight is.
+    [[nodiscard]] double interpolated(const glm::dvec3& indexPoint);
+    /// The index as it is in the file.
+    [[nodiscard]] glm::ivec3 wrapped(const glm::ivec3& index) const;
+
+private:
+    const VolumeProvider& volumes_;
+    const DatasetMeta& meta_;
+    VolumeKey key_;
+    std::map<int, std::vector<double>> slices_;
+};
 
 /// What the level-0 samples say about one point of the world.
 struct PointSample {

@@ -181,8 +181,24 @@ TEST_F(ApiResources, ProbeReadsSourceValues) {
     EXPECT_TRUE(outside.at("values").at(0).at("value").is_null());
     const auto pixel = getJson(kSheet + "/probe?cell=A1&px=32&py=24&width=64&height=48");
     EXPECT_EQ(pixel.at("values").size(), 3U);
+    const auto own = [](const json& answer) { return answer.at("values").at(0); };
+    EXPECT_TRUE(own(probe).at("hit").is_null()) << "a point of the world is no pixel";
+    EXPECT_TRUE(own(probe).at("isovalue").is_null());
+    EXPECT_TRUE(own(pixel).at("hit") == "sample" || own(pixel).at("hit") == "middle") << pixel.dump();
+    EXPECT_TRUE(pixel.at("values").at(1).at("hit").is_null());
+    const auto surface = getJson(kSheet + "/probe?cell=A1&px=32&py=24&width=64&height=48&technique=isosurface"
+                                          "&isovalue=40");
+    EXPECT_EQ(own(surface).at("hit"), "isosurface");
+    EXPECT_EQ(own(surface).at("isovalue"), 40);
+    EXPECT_NEAR(own(surface).at("interpolated").get<double>(), 40, 1e-3);
+    const auto cut = getJson(kSheet + "/probe?cell=A1&px=32&py=24&width=64&height=48&technique=surface"
+                                      "&clip.shape=sphere&clip.mode=probe");
+    EXPECT_EQ(own(cut).at("hit"), "face");
     const auto bar = getJson(kSheet + "/cells/A1/colourbar");
     EXPECT_EQ(bar.at("stops").size(), 64U);
+    EXPECT_TRUE(bar.at("isovalues").empty());
+    const auto marked = getJson(kSheet + "/cells/A1/colourbar?technique=isosurface&isovalue=40");
+    EXPECT_EQ(marked.at("isovalues").at(0).at("value"), 40);
     EXPECT_GE(getJson(kSheet + "/timings").at("n").get<int>(), 3);
 }
 

@@ -28,7 +28,9 @@ nlohmann::json valueJson(const engine::ProbeValue& probe) {
             {"interpolated", numberOrNull(probe.interpolated)},
             {"index", {probe.index.x, probe.index.y, probe.index.z}},
             {"unit", probe.unit},
-            {"note", probe.note}};
+            {"note", probe.note},
+            {"hit", probe.hit.empty() ? nlohmann::json(nullptr) : nlohmann::json(probe.hit)},
+            {"isovalue", numberOrNull(probe.isovalue)}};
 }
 
 Response probeAnswer(const nlohmann::json& world, const std::vector<engine::ProbeValue>& probes) {
@@ -123,14 +125,19 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                    {"stream", "string", "use the view of this stream's page"}},
          .anyStyleKey = true,
          .pool = Pool::Render,
-         .answerDoc = "{world, values: [{cell, value, interpolated, index, unit, note}]}"});
+         .answerDoc =
+             "{world, values: [{cell, value, interpolated, index, unit, note, hit, isovalue}]}; hit: of "
+             "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
+             "(nothing opaque enough), else null"});
     router.add({.method = "GET",
                 .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/colourbar",
                 .handler = [&context](Request& request) { return colourBar(context, request); },
                 .summary = "The transfer function of a cell as drawn, for a colour bar",
                 .query = {{"stream", "string", "use the view of this stream's page"}},
                 .anyStyleKey = true,
-                .answerDoc = "{stops, low, high, scale, unit, quantity, shared, ticks}"});
+                .answerDoc =
+                    "{stops, low, high, scale, unit, quantity, shared, ticks, isovalues: [{value, position, "
+                    "colour, opacity}], colouredBy}"});
     router.add({.method = "GET",
                 .pattern = "/api/v1/sheets/{sheet}/timings",
                 .handler = [&context](Request& request) { return timings(context, request); },

@@ -450,5 +450,42 @@ TEST_F(EngineTest, TheColourBarMarksTheSurfacesAndExplainsWhatColoursThem) {
     EXPECT_FALSE(coloured.at("ticks").empty());
 }
 
+TEST_F(EngineTest, AProbeSaysWhatLiesUnderThePixel) {
+    Engine engine(options());
+    const fs::path ramp = data / "a.nrrd";
+    {
+        std::ofstream stream(ramp, std::ios::binary);
+        stream << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 1 1 1\nencoding: raw\n\n";
+        for (int i = 0; i < 16 * 16 * 16; ++i)
+            stream.put(static_cast<char>(10 * (i % 16)));
+    }
+    engine.importDatasets({request(ramp), request(volume("b.nrrd", {16, 16, 16}, 20))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    view.all = {{"technique", std::string("isosurface")},
+                {"isovalue", sheet::NumberTable{{{75.0}}}},
+                {"camera.azimuth", 90.0},
+                {"camera.elevation", 0.0}};
+    auto values = engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100});
+    ASSERT_EQ(values.size(), 2U);
+    EXPECT_EQ(values[0].hit, "isosurface");
+    EXPECT_EQ(values[0].isovalue, 75.0);
+    EXPECT_NEAR(values[0].interpolated.value(), 75.0, 1e-3);
+    EXPECT_EQ(values[1].hit, "") << "only where the pixel is";
+    EXPECT_EQ(values[1].interpolated, 20.0);
+    view.all["clip.shape"] = std::string("B1 > 1"); // all of it
+    EXPECT_TRUE(engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100}).empty()) << "not there yet";
+    ASSERT_TRUE(engine.waitIdle(60));
+    EXPECT_TRUE(engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100}).empty()) << "cut away";
+    view.all["clip.mode"] = std::string("probe");
+    EXPECT_EQ(engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100}).at(0).hit, "isosurface");
+    view.all["technique"] = std::string("surface");
+    EXPECT_EQ(engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100}).at(0).hit, "face");
+    view.all["technique"] = std::string("raycast");
+    view.all["probe.opacity"] = 0.0;
+    EXPECT_EQ(engine.probePixel("", {0, 0}, view, {50, 50}, {100, 100}).at(0).hit, "sample");
+    EXPECT_EQ(engine.probeWorld("", {5, 5, 5}).at(0).hit, "");
+}
+
 } // namespace
 } // namespace voxsheet::engine

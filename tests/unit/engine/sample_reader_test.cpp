@@ -1,4 +1,3 @@
-#include "engine/pixel_probe.h"
 #include "engine/sample_reader.h"
 #include "memory_dataset.h"
 
@@ -67,75 +66,6 @@ TEST(SamplePoint, ASampleThatTouchesNanIsAbsentButItsNeighbourIsNot) {
     EXPECT_FALSE(between->interpolated);
     const auto on = samplePoint(provider, *meta, 0, 0, {1.0, 0, 0});
     EXPECT_EQ(on.value().interpolated.value(), 1.0) << "a weight of zero touches nothing";
-}
-
-/// A camera at distance 10 on the +z side of the centre of a 9^3 grid, looking along -z.
-TileSpec tileOver(const Grid& grid, double opacity) {
-    TileSpec tile;
-    tile.camera.viewFromWorld = glm::dmat4(1.0);
-    tile.camera.viewFromWorld[3] = glm::dvec4(-centreWorld(grid) - glm::dvec3(0, 0, 10), 1.0);
-    TransferTable table;
-    table.low = 0;
-    table.high = 1;
-    for (int i = 0; i < 256; ++i)
-        table.entries.emplace_back(1.0F, 1.0F, 1.0F, i >= 128 ? static_cast<float>(opacity) : 0.0F);
-    tile.transfer = std::make_shared<const TransferTable>(table);
-    tile.sizePixels = {100, 100};
-    return tile;
-}
-
-LevelSamples slab(const Grid& grid, int from, int to) {
-    LevelSamples level;
-    level.dims = grid.dims;
-    for (int k = 0; k < grid.dims.z; ++k) {
-        for (int n = 0; n < grid.dims.x * grid.dims.y; ++n)
-            level.values.push_back(k >= from && k <= to ? 1.0F : 0.0F);
-    }
-    return level;
-}
-
-TEST(PixelProbe, FindsTheSurfaceThatTheEyeSees) {
-    Grid grid;
-    grid.dims = {9, 9, 9};
-    const auto point = pointUnderPixel(tileOver(grid, 0.99), grid, slab(grid, 2, 6), {50, 50});
-    ASSERT_TRUE(point);
-    EXPECT_NEAR(point->x, 4.0, 0.1);
-    EXPECT_NEAR(point->z, 6.3, 0.5) << "the side towards the eye";
-}
-
-TEST(PixelProbe, FallsBackToTheMiddleWhereNothingIsOpaque) {
-    Grid grid;
-    grid.dims = {9, 9, 9};
-    const auto point = pointUnderPixel(tileOver(grid, 0.0), grid, slab(grid, 2, 6), {50, 50});
-    ASSERT_TRUE(point);
-    EXPECT_NEAR(point->z, 4.0, 0.1);
-}
-
-TEST(PixelProbe, AMaximumProjectionAnswersWithTheLargestValue) {
-    Grid grid;
-    grid.dims = {9, 9, 9};
-    TileSpec tile = tileOver(grid, 0.0);
-    tile.technique = Technique::Mip;
-    const auto point = pointUnderPixel(tile, grid, slab(grid, 1, 1), {50, 50});
-    ASSERT_TRUE(point);
-    EXPECT_NEAR(point->z, 1.0, 0.3);
-}
-
-TEST(PixelProbe, ARayBesideTheVolumeHitsNothing) {
-    Grid grid;
-    grid.dims = {9, 9, 9};
-    EXPECT_FALSE(pointUnderPixel(tileOver(grid, 0.9), grid, slab(grid, 2, 6), {-500, 50}));
-}
-
-TEST(PixelProbe, OrthographicRaysAreParallelAndTheTopRowIsUp) {
-    CameraSpec camera;
-    camera.projection = Projection::Orthographic;
-    camera.heightWorld = 2.0;
-    const Ray top = pixelRay(camera, {50, 0}, {100, 100});
-    const Ray bottom = pixelRay(camera, {50, 100}, {100, 100});
-    EXPECT_EQ(top.direction, bottom.direction);
-    EXPECT_NEAR(top.origin.y, 1.0, 1e-12);
-    EXPECT_NEAR(bottom.origin.y, -1.0, 1e-12);
 }
 
 } // namespace
