@@ -67,6 +67,7 @@ void addGeometry(json& result, const Grid& grid) {
     result["periodic"] = grid.periodic.x || grid.periodic.y || grid.periodic.z;
     result["periodic_axes"] = json::array({grid.periodic.x, grid.periodic.y, grid.periodic.z});
     result["centring"] = grid.centring == Centring::Cell ? "cell" : "point";
+    result["box"] = describeBox(grid);
 }
 
 void addCrystal(json& result, const Crystal& crystal) {
@@ -103,6 +104,15 @@ json describeDataset(const DatasetMeta& meta) {
         result["fields"].push_back(fieldJson(field));
     if (meta.crystal) addCrystal(result, *meta.crystal);
     return result;
+}
+
+json describeBox(const Grid& grid) {
+    const IndexBox box = boxIndex(grid);
+    json edges = json::array();
+    for (int axis = 0; axis < 3; ++axis)
+        edges.push_back(vectorJson(glm::dvec3(grid.worldFromIndex[axis]) * (box.high[axis] - box.low[axis])));
+    return {{"origin", vectorJson(glm::dvec3(grid.worldFromIndex * glm::dvec4(box.low, 1.0)))},
+            {"edges", edges}};
 }
 
 json describeHistogram(const DatasetMeta& meta, int field, int step) {

@@ -9,11 +9,14 @@ namespace voxsheet::engine {
 
 /// {kind: "grid", format, dims, spacing, origin, direction (3x3, row-major; its columns are the grid's
 /// axes), type (of the source), range (first field and step, raw source numbers), value_scale,
-/// value_offset, units: {length, value}, periodic, periodic_axes, centring, fields: [{name, quantity, unit,
-/// type, range, mean, stddev, nan}], steps, times, levels, notes}, and for crystals lattice (rows a, b, c)
-/// and atoms [{element, number, position}]. Ranges inside `fields` are in values (after slope and
-/// intercept); a field without a finite value has range null.
+/// value_offset, units: {length, value}, periodic, periodic_axes, centring, box (describeBox), fields:
+/// [{name, quantity, unit, type, range, mean, stddev, nan}], steps, times, levels, notes}, and for crystals
+/// lattice (rows a, b, c) and atoms [{element, number, position}]. Ranges inside `fields` are in values
+/// (after slope and intercept); a field without a finite value has range null.
 [[nodiscard]] nlohmann::json describeDataset(const DatasetMeta& meta);
+
+/// {origin, edges: [a, b, c]}: the drawn box in the world, from its first corner along the grid's axes.
+[[nodiscard]] nlohmann::json describeBox(const Grid& grid);
 
 /// {low, high, counts, mean, min, max, stddev, nan} of one field and step. Throws NotFound if there is none
 /// such.

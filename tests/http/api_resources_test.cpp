@@ -79,7 +79,9 @@ TEST_F(ApiResources, StateListsCellsWithStyles) {
     ASSERT_EQ(sheet.at("cells").size(), 4U);
     EXPECT_EQ(sheet.at("cells").at(0).at("cell"), "A1");
     EXPECT_EQ(sheet.at("cells").at(0).at("state"), "ok");
+    EXPECT_EQ(sheet.at("cells").at(0).at("box").at("edges").size(), 3U);
     EXPECT_EQ(sheet.at("cells").at(3).at("state"), "empty");
+    EXPECT_TRUE(sheet.at("cells").at(3).at("box").is_null());
     EXPECT_EQ(sheet.at("cells").at(0).at("style").at("camera.azimuth").at("origin"), "default");
 }
 
@@ -240,6 +242,7 @@ TEST_F(ApiResources, FormulaCell) {
     }
     EXPECT_EQ(cell.at("state"), "ok") << cell.dump();
     EXPECT_EQ(cell.at("source").at("formula"), "=B1-A1");
+    EXPECT_EQ(cell.at("box"), getJson(kSheet + "/cells/B1").at("box"));
     EXPECT_EQ(program_->get(kSheet + "/cells/B2/image.png?width=32&height=32").status, 200);
     EXPECT_EQ(program_->ask("PATCH", kSheet + "/cells/B2", R"({"source": null, "title": null})").status, 200);
     EXPECT_EQ(getJson(kSheet + "/cells/B2").at("state"), "empty");

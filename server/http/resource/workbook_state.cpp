@@ -1,5 +1,6 @@
 #include "http/resource/workbook_state.h"
 
+#include "engine/dataset_json.h"
 #include "http/resource/edit_answer.h"
 #include "sheet/workbook_json.h"
 
@@ -58,6 +59,7 @@ nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
                        {"state", stateWord(state)},
                        {"dataset", nullptr},
                        {"orientation", ready && status->meta->anatomical}};
+    out["box"] = ready ? engine::describeBox(status->meta->grid) : nlohmann::json();
     if (cell.isDataset()) out["dataset"] = cell.source;
     if (status == nullptr) return out;
     out["code"] = status->code;
