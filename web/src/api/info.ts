@@ -1,6 +1,6 @@
 // What the server is and what it understands: read once per connection.
 import { getJson } from "./http";
-import type { ColourMap, ServerInfo, StyleKey } from "./types";
+import type { ColourMap, Preset, ServerInfo, StyleKey } from "./types";
 
 export function getInfo(): Promise<ServerInfo> {
     return getJson<ServerInfo>("api/v1");
@@ -12,4 +12,8 @@ export async function getStyleKeys(): Promise<StyleKey[]> {
 
 export async function getColourMaps(): Promise<ColourMap[]> {
     return (await getJson<{ maps: ColourMap[] }>("api/v1/colourmaps")).maps;
+}
+
+export async function getPresets(): Promise<Preset[]> {
+    return (await getJson<{ presets: Preset[] }>("api/v1/presets")).presets;
 }

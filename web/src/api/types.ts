@@ -1,5 +1,6 @@
 // What the server answers, as far as the page reads it.
 import type { StylePatch, StyleValue } from "../model/camera";
+import type { VolumeBox } from "../model/volume_box";
 
 export type { StylePatch, StyleValue };
 
@@ -41,6 +42,19 @@ export interface StyleKey {
     widget?: string | null;
     scope?: string;
     appliesWhen?: { key: string; values: string[] } | null;
+    /** Of rows of numbers. */
+    columns?: number;
+    minRows?: number;
+    maxRows?: number;
+    columnNames?: string[];
+}
+
+/** Style values that are set together, with one press. */
+export interface Preset {
+    name: string;
+    label: string;
+    doc: string;
+    style: StylePatch;
 }
 
 export type ColourStop = [number, number, number, number];
@@ -96,6 +110,7 @@ export interface Dataset {
     format?: string;
     notes?: string[];
     bytes?: number;
+    box?: VolumeBox;
 }
 
 export interface Histogram {
@@ -126,6 +141,8 @@ export interface CellState {
     progress?: number;
     dataset?: string | null;
     orientation?: boolean;
+    /** The drawn box of what the cell shows. */
+    box?: VolumeBox | null;
     style: Record<string, ResolvedValue>;
 }
 
@@ -173,6 +190,8 @@ export interface ColourBarInfo {
     shared?: boolean;
     /** The opacity curve as drawn, also when it was chosen from the data. */
     opacity?: [number, number][];
+    /** Of isosurfaces, also when they were chosen from the data. */
+    isovalues?: number[];
     ticks: ColourBarTick[];
 }
 

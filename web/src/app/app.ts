@@ -1,6 +1,7 @@
 // Wires store, stream and actions together.
 import { ApiProblem } from "../api/http";
 import { streamUrl } from "../api/sheets";
+import type { LayerTarget } from "../api/types";
 import { formatAddress } from "../model/address";
 import { lookFromText, viewOverrides } from "../model/look";
 import { newAppStore, type AppStore } from "../state/app_state";
@@ -12,10 +13,12 @@ import { StreamClient } from "../stream/stream_client";
 import { TilePainter } from "../stream/tile_painter";
 import { ViewSender, type ViewBody } from "../stream/view_sender";
 import { CellActions } from "./cell_actions";
+import { ClipActions } from "./clip_actions";
 import { DatasetActions } from "./dataset_actions";
 import { Notices } from "./notices";
 import { ServerSync } from "./server_sync";
 import { StyleActions } from "./style_actions";
+import { KeyEdits, StyleEdit } from "./style_edit";
 import { TileSizes } from "./tile_sizes";
 import { ViewActions } from "./view_actions";
 
@@ -27,6 +30,8 @@ export class App {
     readonly cells = new CellActions(this.store, this.sync, this.notices);
     readonly datasets = new DatasetActions(this.store, this.sync, this.notices);
     readonly view = new ViewActions(this.store, this.sync, this.notices);
+    readonly clips = new ClipActions(this.store, this.styles, this.view, this.notices);
+    readonly keyEdits = new KeyEdits(this.styles, this.view);
 
     readonly painter = new TilePainter({
         framePainted: (frame, tiles) => {
@@ -80,6 +85,22 @@ export class App {
             }
         }
         this.client.start();
+    }
+
+    /** A drag that changes style values; keys that were pressed before it are written first. */
+    beginEdit(targets: LayerTarget[]): StyleEdit {
+        void this.keyEdits.finish();
+        return new StyleEdit(this.styles, this.view, targets);
+    }
+
+    async undo(): Promise<void> {
+        await this.keyEdits.finish();
+        await this.cells.undo();
+    }
+
+    async redo(): Promise<void> {
+        await this.keyEdits.finish();
+        await this.cells.redo();
     }
 
     showSheet(name: string): void {

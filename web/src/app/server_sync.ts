@@ -1,6 +1,6 @@
 // Keeps the store equal to the server: what it is, the workbook, the datasets, the colour bars.
 import { listDatasets } from "../api/datasets";
-import { getColourMaps, getInfo, getStyleKeys } from "../api/info";
+import { getColourMaps, getInfo, getPresets, getStyleKeys } from "../api/info";
 import { getColourBar } from "../api/sheets";
 import { getState } from "../api/workbook";
 import type { ColourBarInfo, Dataset } from "../api/types";
@@ -24,8 +24,8 @@ export class ServerSync {
 
     /** Throws ApiProblem. */
     async loadAbout(): Promise<void> {
-        const [info, keys, maps] = await Promise.all([getInfo(), getStyleKeys(), getColourMaps()]);
-        this.store.dispatch({ type: "connection/about", info, keys, maps });
+        const [info, keys, maps, presets] = await Promise.all([getInfo(), getStyleKeys(), getColourMaps(), getPresets()]);
+        this.store.dispatch({ type: "connection/about", info, keys, maps, presets });
     }
 
     /** Throws ApiProblem. */

@@ -1,9 +1,9 @@
 // Edits of style keys: at the layer that the inspector has chosen, with a preview while dragging.
 import { clearOverrides, patchStyle } from "../api/sheets";
-import type { HiddenEdit, LayerTarget, Origin, StylePatch } from "../api/types";
+import type { HiddenEdit, LayerTarget, Origin, StylePatch, StyleValue } from "../api/types";
 import { cellsShowing, scopesOf, targetOfOrigin, targetsOf, type Scope } from "../model/scope";
 import type { AppStore } from "../state/app_state";
-import { currentSheet } from "../state/book";
+import { cellOf, currentSheet } from "../state/book";
 import type { Notices } from "./notices";
 import type { ServerSync } from "./server_sync";
 
@@ -29,6 +29,19 @@ export class StyleActions {
         const { page, book } = this.store.get();
         const sheet = currentSheet(book);
         return sheet ? targetsOf(scope, page.selection, sheet) : [];
+    }
+
+    /** Where a value that shows in a cell is set, so that every cell that follows it goes along; `alone`: that cell only. */
+    homeOf(cell: string, key: string, alone: boolean): LayerTarget[] {
+        if (alone) return [{ layer: "cell", cell }];
+        const origin = cellOf(currentSheet(this.store.get().book), cell)?.style[key]?.origin ?? "default";
+        return [targetOfOrigin(origin, cell) ?? { layer: "sheet" }];
+    }
+
+    /** A value as the cell shows it now: with the edit under way, if there is one. */
+    shownValue(cell: string, key: string): StyleValue | undefined {
+        const { page, book } = this.store.get();
+        return page.live[cell]?.[key] ?? cellOf(currentSheet(book), cell)?.style[key]?.value;
     }
 
     /** Shows values in the pictures at once, without changing the workbook. */
@@ -58,6 +71,7 @@ export class StyleActions {
         if (!sheet || targets.length === 0) return;
         const gesture = targets.length > 1 ? newGestureId() : undefined;
         const hidden: HiddenEdit[] = [];
+        const shown = this.store.get().page.live;
         await this.notices.attempt(async () => {
             for (const target of targets) {
                 hidden.push(...((await patchStyle(sheet.name, target, patch, gesture)).hidden ?? []));
@@ -65,7 +79,8 @@ export class StyleActions {
         });
         this.store.dispatch({ type: "page/hidden", hidden });
         await this.sync.book.request();
-        this.cancelPreview();
+        // Another edit may have begun meanwhile: its preview stays.
+        if (this.store.get().page.live === shown) this.cancelPreview();
     }
 
     async setAtScope(scope: Scope, patch: StylePatch): Promise<void> {

@@ -57,8 +57,8 @@ class Shortcuts {
 
     private command(event: KeyboardEvent): boolean {
         const key = event.key.toLowerCase();
-        if (key === "z") void (event.shiftKey ? this.app.cells.redo() : this.app.cells.undo());
-        else if (key === "y") void this.app.cells.redo();
+        if (key === "z") void (event.shiftKey ? this.app.redo() : this.app.undo());
+        else if (key === "y") void this.app.redo();
         else if (key === "s") void this.app.cells.save();
         else return false;
         return true;
@@ -87,6 +87,9 @@ class Shortcuts {
                 return true;
             case "r":
                 view.reset(event.altKey ? active : null);
+                return true;
+            case "c":
+                this.app.clips.toggleHandles();
                 return true;
             case "f":
                 view.fit(active, this.aspectOf(active), event.altKey);

@@ -24,6 +24,11 @@ function applies(key: StyleKey, cell: CellState | undefined): boolean {
     return value === undefined || condition.values.includes(String(value));
 }
 
+/** Controls that need the whole width of the panel. */
+export function isWide(key: StyleKey): boolean {
+    return ["numberRows", "colours", "text"].includes(key.type);
+}
+
 export function choicesOf(key: StyleKey): string[] {
     return key.choices ?? key.values ?? [];
 }

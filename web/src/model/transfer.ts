@@ -102,6 +102,14 @@ export interface ValueRange {
     high: number;
 }
 
+/** A value to four digits of the range's width: as fine as a hand can aim. */
+export function roundedValue(value: number, range: ValueRange): number {
+    const width = Math.abs(range.high - range.low);
+    if (!(width > 0)) return value;
+    const digits = Math.min(100, Math.max(0, 3 - Math.floor(Math.log10(width))));
+    return Number(value.toFixed(digits)) + 0;
+}
+
 /**
  * Window/level by dragging: to the right widens the window, upwards raises the level; a drag across the picture doubles or
  * shifts by the whole window. dx, dy in parts of the picture's size, y downwards.

@@ -1,5 +1,5 @@
 // The server as seen from here: reachable or not, what it is, and its stream's running figures.
-import type { ColourMap, ServerInfo, StyleKey } from "../api/types";
+import type { ColourMap, Preset, ServerInfo, StyleKey } from "../api/types";
 
 /** paused: the page is hidden and has closed its stream. refused: the server wants a token that this page does not have. */
 export type ConnectionPhase = "connecting" | "live" | "lost" | "paused" | "refused";
@@ -21,6 +21,7 @@ export interface ConnectionState {
     info: ServerInfo | null;
     keys: StyleKey[];
     maps: ColourMap[];
+    presets: Preset[];
     latencyMs: number | null;
     status: StreamStatus | null;
 }
@@ -32,13 +33,14 @@ export const noConnection: ConnectionState = {
     info: null,
     keys: [],
     maps: [],
+    presets: [],
     latencyMs: null,
     status: null,
 };
 
 export type ConnectionAction =
     | { type: "connection/phase"; phase: ConnectionPhase; message?: string }
-    | { type: "connection/about"; info: ServerInfo; keys: StyleKey[]; maps: ColourMap[] }
+    | { type: "connection/about"; info: ServerInfo; keys: StyleKey[]; maps: ColourMap[]; presets: Preset[] }
     | { type: "connection/latency"; ms: number }
     | { type: "connection/status"; status: StreamStatus };
 
@@ -53,7 +55,7 @@ export function reduceConnection(state: ConnectionState, action: ConnectionActio
             return { ...state, phase: action.phase, message: action.message ?? "", openings: state.openings + opened };
         }
         case "connection/about":
-            return { ...state, info: action.info, keys: action.keys, maps: action.maps };
+            return { ...state, info: action.info, keys: action.keys, maps: action.maps, presets: action.presets };
         case "connection/latency": {
             const before = state.latencyMs ?? action.ms;
             return { ...state, latencyMs: before + latencyWeight * (action.ms - before) };

@@ -28,6 +28,8 @@ export interface PageSlice {
     saveReason: string;
     inspector: boolean;
     help: boolean;
+    /** Handles of what is clipped stand on the pictures. */
+    clipHandles: boolean;
     theme: Theme;
     /** Text in the formula bar while it is edited. */
     formula: string | null;
@@ -49,6 +51,7 @@ export const newPage: PageSlice = {
     saveReason: "",
     inspector: true,
     help: false,
+    clipHandles: false,
     theme: "dark",
     formula: null,
     formulaError: "",
@@ -68,6 +71,7 @@ export type PageAction =
     | { type: "page/leftPanel"; panel: LeftPanel | null; reason?: string }
     | { type: "page/inspector"; open: boolean }
     | { type: "page/help"; open: boolean }
+    | { type: "page/clipHandles"; shown: boolean }
     | { type: "page/theme"; theme: Theme }
     | { type: "page/formula"; text: string | null; error?: string }
     | { type: "page/notice"; notice: Notice }
@@ -104,6 +108,8 @@ export function reducePage(state: PageSlice, action: PageAction): PageSlice {
             return { ...state, inspector: action.open };
         case "page/help":
             return { ...state, help: action.open };
+        case "page/clipHandles":
+            return { ...state, clipHandles: action.shown };
         case "page/theme":
             return { ...state, theme: action.theme };
         case "page/formula":

@@ -3,14 +3,18 @@ import { EllipsisVertical, RotateCcw, X } from "lucide-preact";
 import { useState } from "preact/hooks";
 import type { CellState, StyleKey, StyleValue } from "../api/types";
 import { formatAddress } from "../model/address";
-import { groupKeys, keyLabel } from "../model/keys";
+import { groupKeys, isWide, keyLabel } from "../model/keys";
 import { originLabel, scopesOf, targetLabel, type Scope } from "../model/scope";
 import { describeSelection } from "../model/selection";
 import { cellOf, currentSheet } from "../state/book";
 import { useApp, useSelect } from "./app_context";
+import { ClipTools } from "./clip/ClipTools";
 import { IconButton } from "./IconButton";
+import { IsovalueEditor } from "./IsovalueEditor";
 import { KeyControl } from "./KeyControl";
+import { LightBall } from "./LightBall";
 import { Menu } from "./Menu";
+import { PresetRow } from "./PresetRow";
 import { TransferEditor } from "./TransferEditor";
 
 function TitleField({ cell }: { cell: CellState }) {
@@ -93,7 +97,7 @@ function KeyRow({ spec, cell }: { spec: StyleKey; cell: CellState }) {
     const id = `key-${spec.name.replaceAll(".", "-")}`;
     const changed = origin !== "default";
     return (
-        <div class={`key-row ${overridden ? "overridden" : ""}`} data-key={spec.name} data-origin={origin}>
+        <div class={`key-row ${overridden ? "overridden" : ""} ${isWide(spec) ? "wide" : ""}`} data-key={spec.name} data-origin={origin}>
             <label for={id} title={`${spec.name}${spec.unit ? ` (${spec.unit})` : ""}: ${spec.doc ?? ""}`}>
                 {keyLabel(spec.name, spec.group)}
             </label>
@@ -106,6 +110,7 @@ function KeyRow({ spec, cell }: { spec: StyleKey; cell: CellState }) {
                     else app.styles.cancelPreview();
                 }}
                 preview={(next) => app.styles.preview({ [spec.name]: next })}
+                nudge={(next) => app.keyEdits.show(spec.name, app.styles.targets(), { [spec.name]: next })}
             />
             <span class={`origin origin-${origin}`} title={`This value comes from: ${originLabel(origin, cell.cell)}`}>
                 {originLabel(origin, cell.cell)}
@@ -143,7 +148,8 @@ function Group({ name, keys, cell }: { name: string; keys: StyleKey[]; cell: Cel
         const origin = cell.style[key.name]?.origin ?? "default";
         return origin !== "default" && origin !== "sheet";
     }).length;
-    const transfer = keys.some((key) => key.name === "transfer.opacity");
+    const has = (key: string): boolean => keys.some(({ name: each }) => each === key);
+    const isosurface = cell.style["technique"]?.value === "isosurface";
     return (
         <section class="key-group" data-group={name}>
             <h3>
@@ -152,7 +158,10 @@ function Group({ name, keys, cell }: { name: string; keys: StyleKey[]; cell: Cel
                     {overrides > 0 && <small title="Values that stand above the sheet's">{overrides} own</small>}
                 </button>
             </h3>
-            {open && transfer && <TransferEditor cell={cell} />}
+            {open && has("isovalue") && isosurface && <IsovalueEditor cell={cell} />}
+            {open && has("clip.planes") && <ClipTools />}
+            {open && has("light.direction") && <LightBall cell={cell} />}
+            {open && has("transfer.opacity") && !isosurface && <TransferEditor cell={cell} />}
             {open && keys.map((key) => <KeyRow key={key.name} spec={key} cell={cell} />)}
         </section>
     );
@@ -187,6 +196,7 @@ export function Inspector() {
             <ScopeChooser />
             <HiddenMessage />
             <div class="key-groups">
+                {cell && <PresetRow />}
                 {cells && cell && cell.state !== "empty" && <TitleField cell={cell} />}
                 {cell && groupKeys(keys, cell).map((group) => <Group key={group.name} name={group.name} keys={group.keys} cell={cell} />)}
                 {!cell && <p class="hint">Nothing to set yet.</p>}

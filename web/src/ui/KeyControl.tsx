@@ -4,7 +4,11 @@ import type { StyleKey, StyleValue } from "../api/types";
 import { plainNumber } from "../model/format";
 import { choicesOf, readValue, sliderSpan, valueText } from "../model/keys";
 import { useApp } from "./app_context";
+import { ColourList } from "./ColourList";
 import { ColourMapPicker } from "./ColourMapPicker";
+import { NumberRows } from "./NumberRows";
+import { SuggestedText } from "./SuggestedText";
+import { TextField } from "./TextField";
 
 export interface ControlProps {
     spec: StyleKey;
@@ -13,39 +17,8 @@ export interface ControlProps {
     /** Where the value goes. */
     set: (value: StyleValue) => void;
     preview: (value: StyleValue) => void;
-}
-
-/** A field that keeps what is typed until Enter or leaving it. */
-function TextField({ id, value, set, label, placeholder, numeric }: {
-    id?: string;
-    value: string;
-    set: (text: string) => void;
-    label?: string;
-    placeholder?: string;
-    numeric?: boolean;
-}) {
-    const [typed, setTyped] = useState<string | null>(null);
-    const commit = (): void => {
-        if (typed !== null && typed !== value) set(typed);
-        setTyped(null);
-    };
-    return (
-        <input
-            id={id}
-            class={numeric ? "number-field" : "text-field"}
-            aria-label={label}
-            inputMode={numeric ? "decimal" : undefined}
-            placeholder={placeholder}
-            spellcheck={false}
-            value={typed ?? value}
-            onInput={(event) => setTyped(event.currentTarget.value)}
-            onBlur={commit}
-            onKeyDown={(event) => {
-                if (event.key === "Enter") commit();
-                if (event.key === "Escape") setTyped(null);
-            }}
-        />
-    );
+    /** For keys that are pressed in a row: previews now, writes once they rest. */
+    nudge: (value: StyleValue) => void;
 }
 
 function NumberControl({ spec, value, id, set, preview }: ControlProps) {
@@ -156,6 +129,12 @@ export function KeyControl(props: ControlProps) {
         case "vector3":
         case "vec3":
             return <VectorControl {...props} />;
+        case "numberRows":
+            return <NumberRows {...props} />;
+        case "colours":
+            return <ColourList {...props} />;
+        case "text":
+            return <SuggestedText {...props} />;
         default:
             return <TextField id={id} value={valueText(value)} set={(typed) => set(readValue(typed))} placeholder={spec.takesAuto ? "auto" : ""} />;
     }

@@ -10,6 +10,7 @@ import { isSelected, selectCell } from "../model/selection";
 import { cellOf, cellTitle, currentSheet } from "../state/book";
 import { newTile, type TileInfo } from "../state/tiles";
 import { useApp, useSelect } from "./app_context";
+import { ClipHandles } from "./clip/ClipHandles";
 import { ColourBar } from "./ColourBar";
 import { OrientationMarks } from "./OrientationMarks";
 import { PictureGestures } from "../input/picture_gestures";
@@ -112,6 +113,7 @@ export function Tile({ address }: { address: Address }) {
         const current = cellOf(currentSheet(state.book), name);
         return current !== undefined && current.state !== "empty" && hasOwnCamera(state.page.look, current);
     });
+    const clipHandles = useSelect((state) => state.page.clipHandles);
     const { picture, canvas } = usePicture(name);
     const title = cellTitle(cell);
     const shown = shownState(cell, tile);
@@ -170,7 +172,7 @@ export function Tile({ address }: { address: Address }) {
                 ref={picture}
                 data-picture-of={name}
                 tabIndex={active ? 0 : -1}
-                role="img"
+                role={clipHandles ? "group" : "img"}
                 aria-label={
                     drawn
                         ? `Picture of ${name}: ${title}. Arrow keys turn it, plus and minus zoom, Enter enlarges.`
@@ -182,6 +184,7 @@ export function Tile({ address }: { address: Address }) {
                 {drawn && !tile.final && <div class="refining" aria-hidden="true" />}
                 {drawn && tile.painted && <OrientationMarks cell={name} />}
                 {drawn && tile.painted && <ColourBar cell={name} />}
+                {drawn && clipHandles && <ClipHandles cell={name} />}
                 {drawn && <ProbeChip cell={name} />}
                 {shown.state === "importing" && <TileProgress progress={shown.progress} label="Importing" />}
                 {shown.state === "error" && <TileError code={shown.code} message={shown.message} />}

@@ -8,6 +8,7 @@ import {
     PanelRight,
     Redo2,
     Save,
+    Scissors,
     Sun,
     Undo2,
 } from "lucide-preact";
@@ -92,11 +93,12 @@ function ThemeButton() {
 
 export function TopBar() {
     const app = useApp();
-    const { store, view, cells } = app;
+    const { store, view } = app;
     const book = useSelect((state) => state.book.book);
     const leftPanel = useSelect((state) => state.page.leftPanel);
     const inspector = useSelect((state) => state.page.inspector);
     const help = useSelect((state) => state.page.help);
+    const clipHandles = useSelect((state) => state.page.clipHandles);
     const name = book?.workbook?.title || book?.workbook?.name || "";
     return (
         <header class="top-bar">
@@ -109,11 +111,18 @@ export function TopBar() {
             <strong class="brand">Voxsheet</strong>
             {name && <span class="book-name">{name}</span>}
             <div class="button-group">
-                <IconButton icon={Undo2} label="Undo" keys="Ctrl+Z" disabled={!book?.canUndo} onClick={() => void cells.undo()} />
-                <IconButton icon={Redo2} label="Redo" keys="Ctrl+Shift+Z" disabled={!book?.canRedo} onClick={() => void cells.redo()} />
+                <IconButton icon={Undo2} label="Undo" keys="Ctrl+Z" disabled={!book?.canUndo} onClick={() => void app.undo()} />
+                <IconButton icon={Redo2} label="Redo" keys="Ctrl+Shift+Z" disabled={!book?.canRedo} onClick={() => void app.redo()} />
             </div>
             <FormulaBar />
             <div class="button-group">
+                <IconButton
+                    icon={Scissors}
+                    label={clipHandles ? "Hide clip handles" : "Show clip handles"}
+                    keys="c"
+                    pressed={clipHandles}
+                    onClick={() => app.clips.toggleHandles()}
+                />
                 <IconButton icon={Save} label="Save view into the workbook" onClick={() => void view.save()} />
                 <IconButton icon={Link} label="Copy a link to this view" onClick={() => void view.copyLink()} />
                 <ExportMenu />

@@ -1,13 +1,12 @@
 // The opacity curve over the histogram: points are dragged, added and removed with mouse, touch and keyboard.
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { getHistogram } from "../api/datasets";
-import type { CellState, ColourBarInfo, Histogram } from "../api/types";
-import { formatNumber, withUnit } from "../model/format";
+import { useMemo, useRef, useState } from "preact/hooks";
+import type { CellState, ColourBarInfo } from "../api/types";
+import { followPointer } from "../input/pointer_drag";
+import { formatNumber } from "../model/format";
 import {
     addedPoint,
     movedPoint,
     opacityPointsOf,
-    positionOf,
     removedPoint,
     simplifiedCurve,
     valueAt,
@@ -15,49 +14,10 @@ import {
     type Scale,
 } from "../model/transfer";
 import { useApp, useSelect } from "./app_context";
-import { gradient } from "./ColourBar";
+import { histogramHeight as height, histogramPath, histogramWidth as width, RangeStrip, useHistogram } from "./Histogram";
 import { TransferTable } from "./TransferTable";
 
-const width = 260;
-const height = 110;
 const key = "transfer.opacity";
-
-export function useHistogram(cell: CellState): Histogram | null {
-    const [histogram, setHistogram] = useState<Histogram | null>(null);
-    const field = cell.style["field"]?.value;
-    const step = cell.style["time"]?.value;
-    const wanted = cell.state === "ok" ? cell.dataset : null;
-    useEffect(() => {
-        setHistogram(null);
-        if (!wanted) return;
-        let current = true;
-        getHistogram(wanted, typeof field === "string" || typeof field === "number" ? field : null, typeof step === "number" ? step : null).then(
-            (answer) => current && setHistogram(answer),
-            // Without a histogram the curve can still be edited.
-            () => undefined,
-        );
-        return () => {
-            current = false;
-        };
-    }, [wanted, field, step]);
-    return histogram;
-}
-
-/** The histogram over the range of the transfer function, counts on a logarithmic scale. */
-export function histogramPath(histogram: Histogram, bar: ColourBarInfo): string {
-    const largest = Math.log1p(Math.max(1, ...histogram.counts));
-    const binWidth = (histogram.high - histogram.low) / Math.max(1, histogram.counts.length);
-    const parts: string[] = [];
-    histogram.counts.forEach((count, i) => {
-        const at = (value: number): number => width * Math.min(1, Math.max(0, positionOf(value, bar, bar.scale as Scale)));
-        const left = at(histogram.low + i * binWidth);
-        const right = at(histogram.low + (i + 1) * binWidth);
-        if (right <= left || count === 0) return;
-        const top = height - (height * Math.log1p(count)) / largest;
-        parts.push(`M${left.toFixed(1)} ${height}V${top.toFixed(1)}H${right.toFixed(1)}V${height}`);
-    });
-    return parts.join("");
-}
 
 function curvePath(points: readonly OpacityPoint[]): string {
     if (points.length === 0) return "";
@@ -106,31 +66,28 @@ export function TransferEditor({ cell }: { cell: CellState }) {
         setSelected(index);
         let latest = list;
         let changed = list !== points;
-        const target = svg.current!;
-        target.setPointerCapture(event.pointerId);
-        app.view.gestureBegan();
-        const move = (next: PointerEvent): void => {
-            changed = true;
-            latest = movedPoint(latest, index, ...place(next));
+        const edit = app.beginEdit(app.styles.targets());
+        const show = (): void => {
             setDrag(latest);
-            app.styles.preview({ [key]: latest.map((point) => [...point]) });
+            edit.show({ [key]: latest.map((point) => [...point]) });
         };
-        const end = (): void => {
-            target.removeEventListener("pointermove", move);
-            target.removeEventListener("pointerup", end);
-            target.removeEventListener("pointercancel", end);
-            app.view.gestureEnded();
-            if (changed) write(latest);
-            else setDrag(null);
-        };
-        target.addEventListener("pointermove", move);
-        target.addEventListener("pointerup", end);
-        target.addEventListener("pointercancel", end);
+        if (changed) show();
+        followPointer(event, svg.current!, {
+            move: (next) => {
+                changed = true;
+                latest = movedPoint(latest, index, ...place(next));
+                show();
+            },
+            end: (cancelled) => {
+                setDrag(null);
+                if (cancelled || !changed) edit.cancel();
+                else void edit.end();
+            },
+        });
     };
     const onBackground = (event: PointerEvent): void => {
         if (event.button !== 0) return;
         const added = addedPoint(shown, ...place(event));
-        setDrag(added.points);
         startDrag(event, added.points, added.index);
     };
     const onPointKey = (event: KeyboardEvent, index: number): void => {
@@ -143,7 +100,10 @@ export function TransferEditor({ cell }: { cell: CellState }) {
             ArrowDown: [0, -step],
         };
         const by = moves[event.key];
-        if (by) write(movedPoint(shown, index, position + by[0], opacity + by[1]));
+        if (by) {
+            const moved = movedPoint(shown, index, position + by[0], opacity + by[1]).map((point) => [...point]);
+            app.keyEdits.show(`${cell.cell} ${key} ${index}`, app.styles.targets(), { [key]: moved });
+        }
         else if (event.key === "Delete" || event.key === "Backspace") write(removedPoint(shown, index));
         else if (event.key === "Insert" || event.key === "+") {
             const next = shown[index + 1] ?? [1, opacity];
@@ -184,15 +144,11 @@ export function TransferEditor({ cell }: { cell: CellState }) {
                         onContextMenu={(event) => event.preventDefault()}
                         onFocus={() => setSelected(i)}
                         onKeyDown={(event) => onPointKey(event, i)}
+                        onBlur={() => void app.keyEdits.finish()}
                     />
                 ))}
             </div>
-            <div class="map-strip" style={{ background: gradient(bar.stops, "to right") }} />
-            <div class="range-labels">
-                <span>{formatNumber(bar.low)}</span>
-                <span>{automatic ? "curve chosen from the data" : ""}</span>
-                <span>{withUnit(formatNumber(bar.high), bar.unit)}</span>
-            </div>
+            <RangeStrip bar={bar} note={automatic ? "curve chosen from the data" : ""} />
             <TransferTable points={shown} bar={bar} write={write} />
         </div>
     );
