@@ -25,6 +25,7 @@ struct RenderArguments {
     std::string cell;
     std::string title;
     std::vector<std::string> labels;
+    std::string preset;
     std::vector<std::string> settings;
 };
 
@@ -55,6 +56,15 @@ void applySetting(engine::Engine& engine, const std::string& sheetName, const st
         assignment = text.substr(colon + 1);
     }
     edit.patch.insert(sheet::parseAssignment(engine.keys(), assignment));
+    engine.apply(edit);
+}
+
+/// For the whole sheet; what --set says comes on top.
+void applyPreset(engine::Engine& engine, const std::string& sheetName, const std::string& name) {
+    sheet::SetStyle edit;
+    edit.sheet = sheetName;
+    edit.clearNearer = true;
+    edit.patch = sheet::presetNamed(engine.stylePresets(), name).style;
     engine.apply(edit);
 }
 
@@ -114,6 +124,7 @@ int runRender(const RenderArguments& arguments) {
     engine::Engine engine(engineOptions(arguments.engine));
     openSources(engine, arguments.engine);
     request.sheet = engine.snapshot()->sheets.front().name;
+    if (!arguments.preset.empty()) applyPreset(engine, request.sheet, arguments.preset);
     for (const auto& setting : arguments.settings)
         applySetting(engine, request.sheet, setting);
     applyLabels(engine, request.sheet, arguments.labels);
@@ -136,6 +147,8 @@ Action addRender(CLI::App& app) {
     app.add_option("--cell", arguments->cell, "Only this cell, e.g. B2");
     app.add_option("--title", arguments->title, "Text above the sheet");
     app.add_option("--label", arguments->labels, "Name of a cell, in reading order; repeatable")->take_all();
+    app.add_option("--preset", arguments->preset,
+                   "A named look for all cells, e.g. isosurface, half, cut-face, sphere");
     app.add_option("--set", arguments->settings,
                    "KEY=VALUE for all cells, or B2:KEY=VALUE for one; repeatable")
         ->take_all();

@@ -1,18 +1,13 @@
 #include "engine/colour_map.h"
 
-#include "base/embedded.h"
 #include "base/errors.h"
+#include "engine/config_files.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-
-namespace voxsheet {
-extern const EmbeddedFile configFiles[];
-extern const std::size_t configFilesCount;
-} // namespace voxsheet
 
 namespace voxsheet::engine {
 
@@ -147,14 +142,7 @@ ColourMapTable ColourMapTable::fromJson(std::string_view text) {
 }
 
 const ColourMapTable& ColourMapTable::embedded() {
-    static const ColourMapTable table = [] {
-        for (std::size_t i = 0; i < configFilesCount; ++i) {
-            if (std::string_view(configFiles[i].path) == "colour_maps.json")
-                return fromJson(configFiles[i].bytes());
-        }
-        throw InternalError("the colour maps", "colour_maps.json was not built into this program",
-                            "build it again");
-    }();
+    static const ColourMapTable table = fromJson(configFile("colour_maps.json"));
     return table;
 }
 

@@ -220,6 +220,8 @@ nlohmann::json Engine::colourBar(const std::string& sheetName, const sheet::Addr
 
 nlohmann::json Engine::colourMaps() const { return describeColourMaps(ColourMapTable::embedded()); }
 
+const std::vector<sheet::StylePreset>& Engine::stylePresets() const { return implementation_->presets; }
+
 const RenderDevice* Engine::device() const {
     return implementation_->thread ? &implementation_->thread->device() : nullptr;
 }

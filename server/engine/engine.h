@@ -9,6 +9,7 @@
 #include "sheet/history.h"
 #include "sheet/style.h"
 #include "sheet/style_keys.h"
+#include "sheet/style_presets.h"
 #include "sheet/workbook.h"
 #include "volume/dataset.h"
 
@@ -227,6 +228,8 @@ public:
     [[nodiscard]] nlohmann::json colourBar(const std::string& sheetName, const sheet::Address& cell,
                                            const View& view) const;
     [[nodiscard]] nlohmann::json colourMaps() const;
+    /// The looks that the program carries inside itself.
+    [[nodiscard]] const std::vector<sheet::StylePreset>& stylePresets() const;
 
     // --- state ---
     [[nodiscard]] const RenderDevice* device() const; ///< null when options.render is false

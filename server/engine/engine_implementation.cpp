@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "engine/child_importer.h"
 #include "engine/colour_map.h"
+#include "engine/config_files.h"
 #include "engine/tile_identity.h"
 #include "sheet/dataset_names.h"
 #include "store/volume_store.h"
@@ -81,6 +82,7 @@ NamedVolumeSources namedVolumeSources(DatasetKeeper& datasets) {
 
 Engine::Implementation::Implementation(EngineOptions given)
     : options(completed(std::move(given))), keys(keyTable()),
+      presets(sheet::parseStylePresets(configFile("style_presets.json"), *keys)),
       datasets(options, childImporter(options),
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
       thread(renderThread(options, datasets.volumes())),

@@ -58,6 +58,7 @@ public:
 
     EngineOptions options;
     std::shared_ptr<const sheet::KeyTable> keys;
+    std::vector<sheet::StylePreset> presets;
     std::mutex listenerMutex;
     std::map<std::uint64_t, ChangeListener> listeners;
     std::uint64_t lastListener = 0;

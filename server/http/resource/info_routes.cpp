@@ -61,6 +61,15 @@ void addInfoRoutes(Router& router, const ApiContext& context) {
          .summary = "The table of style keys: type, unit, bounds, default, documentation",
          .answerDoc = "{keys: [{name, type, unit, min, max, choices, default, group, widget, doc}]}"});
     router.add({.method = "GET",
+                .pattern = "/api/v1/presets",
+                .handler =
+                    [&context](Request&) {
+                        return jsonAnswer(nlohmann::json{
+                            {"presets", sheet::describePresets(context.engine.stylePresets())}});
+                    },
+                .summary = "Named looks: patches of style keys",
+                .answerDoc = "{presets: [{name, label, doc, style: {KEY: value, or null to reset}}]}"});
+    router.add({.method = "GET",
                 .pattern = "/api/v1/colourmaps",
                 .handler = [&context](Request&) { return jsonAnswer(context.engine.colourMaps()); },
                 .summary = "The colour maps with their stops",
