@@ -155,10 +155,10 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     std::vector<KeySpec> keys;
     addTechnique(keys);
     addIsosurfaceKeys(keys);
-    addClipKeys(keys);
-    addLightKeys(keys);
     addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
+    addClipKeys(keys);
+    addLightKeys(keys);
     addPicture(keys);
     addCamera(keys);
     return KeyTable(std::move(keys));
