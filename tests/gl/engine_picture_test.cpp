@@ -156,5 +156,67 @@ TEST_F(EnginePicture, OneTextureServesAllCellsOfADataset) {
     EXPECT_EQ(engine->residency().textures, 1);
 }
 
+/// What the picture shows and what a probe under the pixel meets, at every fourth pixel.
+struct Agreement {
+    int shown = 0;
+    int differ = 0;
+};
+
+TEST_F(EnginePicture, PickingMeetsWhatThePictureShows) {
+    open({ball("ball.nrrd", 40)});
+    for (const char* technique : {"isosurface", "surface"}) {
+        for (const char* mode : {"probe", "clip"}) {
+            View view;
+            view.request = {
+                {"technique", std::string(technique)},
+                {"background", sheet::Colour{{0, 0, 0, 0}}},
+                {"clip.shape", std::string("torus")},
+                {"clip.mode", std::string(mode)},
+                {"clip.transform", sheet::NumberTable{{{0.1, 0, 0, 40, 20, 0, 0.9, 0.9, 0.9}}}},
+                {"clip.planes", sheet::NumberTable{{{1, 1, 0, 0.3}}}},
+            };
+            TileQuality quality;
+            quality.sizePixels = {200, 200};
+            const PreparedTile tile = engine->prepareTile(*engine->snapshot(), "", {0, 0}, view, quality);
+            ASSERT_TRUE(tile.spec) << tile.message;
+            const FrameResult frame = engine->render({*tile.spec}, FramePriority::Final).get();
+            ASSERT_EQ(frame.tiles.at(0).error, "");
+            Agreement agreement;
+            for (int y = 2; y < 200; y += 4) {
+                for (int x = 2; x < 200; x += 4) {
+                    const bool shown = pixel(frame.tiles[0], x, y)[3] > 0;
+                    const auto values = engine->probePixel("", {0, 0}, view, {x + 0.5, y + 0.5}, {200, 200});
+                    const bool met = !values.empty() && values[0].hit != "middle";
+                    agreement.shown += shown ? 1 : 0;
+                    agreement.differ += shown != met ? 1 : 0;
+                }
+            }
+            EXPECT_GT(agreement.shown, 100) << technique << ", " << mode;
+            // Silhouettes: the picture's floats against double precision.
+            EXPECT_LE(agreement.differ, agreement.shown / 100) << technique << ", " << mode;
+        }
+    }
+}
+
+TEST_F(EnginePicture, AClipObjectMovesByItsMatrixAloneAndOneTextureServesAllCells) {
+    open({ball("a.nrrd", 24), ball("b.nrrd", 24)});
+    SheetImageRequest request;
+    request.annotate = false;
+    request.sizePixels = {220, 110};
+    request.view.request = {{"clip.shape", std::string("A1 > 100")}};
+    static_cast<void>(engine->renderSheet(request));
+    ASSERT_TRUE(engine->waitIdle(60));
+    const SheetImage first = engine->renderSheet(request);
+    ASSERT_TRUE(first.final);
+    ASSERT_EQ(first.failedCells, 0);
+    EXPECT_EQ(engine->residency().textures, 3) << "two volumes and one clip object";
+    const auto uploaded = engine->residency().uploadedBytes;
+    request.view.request["clip.transform"] = sheet::NumberTable{{{0.2, 0, 0, 0, 30, 0, 0.7, 0.7, 0.7}}};
+    const SheetImage moved = engine->renderSheet(request);
+    EXPECT_EQ(engine->residency().uploadedBytes, uploaded);
+    EXPECT_NE(first.pixels.rgba8, moved.pixels.rgba8);
+    EXPECT_NE(first.identity, moved.identity);
+}
+
 } // namespace
 } // namespace voxsheet::engine

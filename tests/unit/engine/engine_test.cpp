@@ -487,5 +487,31 @@ TEST_F(EngineTest, AProbeSaysWhatLiesUnderThePixel) {
     EXPECT_EQ(engine.probeWorld("", {5, 5, 5}).at(0).hit, "");
 }
 
+TEST_F(EngineTest, ADraggedThresholdIsComputedWhereItComesToRestAndNotForEveryValueOnItsWay) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {150, 150, 150}, 10)), request(volume("b.nrrd", {8, 8, 8}, 1))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    const auto entries = [&] {
+        std::ptrdiff_t count = 0;
+        for (const auto& each : fs::directory_iterator(options().storeDir))
+            count += each.path().filename().string().size() == 32 ? 1 : 0; // a store key
+        return count;
+    };
+    ASSERT_EQ(entries(), 2);
+    View view;
+    const auto ask = [&](int value) {
+        view.all["clip.shape"] = "A1 > " + std::to_string(value);
+        return engine.prepareTile(*engine.snapshot(), "", {1, 0}, view, {});
+    };
+    constexpr int kValues = 60;
+    for (int value = 0; value < kValues; ++value)
+        EXPECT_EQ(ask(value).code, "");
+    ASSERT_TRUE(engine.waitIdle(60));
+    EXPECT_TRUE(ask(kValues - 1).spec);
+    // The first one has begun when the others come; each takes far longer than asking for all of them.
+    EXPECT_LT(entries(), 2 + kValues / 4);
+}
+
 } // namespace
 } // namespace voxsheet::engine
