@@ -17,7 +17,8 @@ const TileSpec& drawable(const engine::PreparedTile& tile) {
     if (tile.spec) return *tile.spec;
     const auto name = sheet::addressName(tile.cell);
     if (tile.progress < 1.0)
-        throw Conflict("cell " + name, "its source is still being imported or computed",
+        throw Conflict("cell " + name,
+                       "what it needs is still being imported or computed (" + tile.message + ")",
                        "ask again when it is ready");
     if (tile.code.empty())
         throw NotFound("cell " + name, "it is empty", "name a cell that holds a dataset or a formula");

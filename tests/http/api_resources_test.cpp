@@ -173,6 +173,21 @@ TEST_F(ApiResources, PicturesWithTagsAndOverrides) {
     EXPECT_EQ(program_->get(kSheet + "/cells/B2/image.png").status, 404); // empty
 }
 
+TEST_F(ApiResources, AClipObjectOfDataIsWaitedFor) {
+    const std::string url = kSheet + "/cells/A1/image.png?width=64&height=48&clip.shape=B1%20%3E%2040";
+    auto image = program_->get(url);
+    for (int tries = 0; image.status == 409 && tries < 600; ++tries) {
+        EXPECT_NE(image.body.find("B1 > 40"), std::string::npos) << image.body;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        image = program_->get(url);
+    }
+    EXPECT_EQ(image.status, 200) << image.body;
+    const auto broken =
+        program_->get(kSheet + "/cells/A1/image.png?width=64&height=48&clip.shape=C9%20%3E%201");
+    EXPECT_EQ(broken.status, 400);
+    EXPECT_NE(broken.body.find("clip.shape"), std::string::npos) << broken.body;
+}
+
 TEST_F(ApiResources, ProbeReadsSourceValues) {
     const auto probe = getJson(kSheet + "/probe?x=3&y=4&z=5");
     ASSERT_EQ(probe.at("values").size(), 3U);
