@@ -35,8 +35,12 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
     const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
                                           : cache_.summary(*look.meta, look.shown.field, look.shown.step);
     look.transfer = resolveTransfer(look.resolved, maps_, *summary, path);
-    if (style.technique == sheet::Technique::Isosurface)
-        look.isosurface = resolveIsosurface(style.isosurface, look.transfer.function, *summary);
+    if (style.technique == sheet::Technique::Isosurface) {
+        sheet::IsosurfaceStyle surfaces = style.isosurface;
+        // Where distances are 0 is the surface that they were taken from.
+        if (surfaces.values.empty() && holdsSignedDistances(*look.meta)) surfaces.values = {0.0};
+        look.isosurface = resolveIsosurface(surfaces, look.transfer.function, *summary);
+    }
     findNamedVolumes(look, {workbook, sheetIndex, cell, view, *contents, style.timeStep});
     return look;
 }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 namespace voxsheet::engine {
@@ -511,6 +512,72 @@ TEST_F(EngineTest, ADraggedThresholdIsComputedWhereItComesToRestAndNotForEveryVa
     EXPECT_TRUE(ask(kValues - 1).spec);
     // The first one has begun when the others come; each takes far longer than asking for all of them.
     EXPECT_LT(entries(), 2 + kValues / 4);
+}
+
+/// The surface of the cube [0, edge]^3.
+std::string cubeStl(double edge) {
+    static constexpr int corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                           {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    std::ostringstream text;
+    text << "solid cube\n";
+    for (const auto& triangle : corners) {
+        text << "facet normal 0 0 0\nouter loop\n";
+        for (const int c : triangle)
+            text << "vertex " << edge * (c & 1) << " " << edge * ((c >> 1) & 1) << " " << edge * (c >> 2)
+                 << "\n";
+        text << "endloop\nendfacet\n";
+    }
+    text << "endsolid cube\n";
+    return text.str();
+}
+
+TEST_F(EngineTest, AMeshIsAClipObjectWithoutACellOfItsOwn) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
+    ImportRequest mesh = request(data / "cube.stl");
+    std::ofstream(data / "cube.stl") << cubeStl(3.0);
+    mesh.place = false;
+    mesh.name = "cube";
+    engine.importDatasets({mesh});
+    ASSERT_TRUE(engine.waitIdle(60));
+    if (engine.dataset("cube").state == DatasetState::Failed)
+        GTEST_SKIP() << engine.dataset("cube").failure->message;
+    View view;
+    view.all = {{"clip.shape", std::string("cube")}};
+    const PreparedTile tile = engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {});
+    ASSERT_TRUE(tile.spec) << tile.message;
+    ASSERT_TRUE(tile.spec->clip.object);
+    EXPECT_EQ(tile.spec->clip.object->dataset, engine.dataset("cube").meta->key);
+    const glm::dvec3 centre(tile.spec->clip.object->objectFromWorld *
+                            glm::dvec4(centreWorld(status(engine, "A1").meta->grid), 1.0));
+    EXPECT_NEAR(glm::distance(centre, glm::dvec3(1.5)), 0.0, 0.1) << "the mesh's centre in the volume's";
+
+    setSource(engine, "A1", "cube");
+    ASSERT_TRUE(engine.waitIdle(60));
+    view.all = {{"technique", std::string("isosurface")}};
+    const PreparedTile shown = engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {});
+    ASSERT_TRUE(shown.spec) << shown.message;
+    ASSERT_EQ(shown.spec->isosurface.surfaces.size(), 1U);
+    EXPECT_EQ(shown.spec->isosurface.surfaces[0].value, 0.0) << "the mesh itself";
+}
+
+TEST_F(EngineTest, AMeshThatCannotBeReadIsTheCellsError) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
+    std::ofstream(data / "open.stl")
+        << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+           "vertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
+    ImportRequest mesh = request(data / "open.stl");
+    mesh.place = false;
+    mesh.name = "open";
+    engine.importDatasets({mesh});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    view.all = {{"clip.shape", std::string("open")}};
+    const PreparedTile tile = engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {});
+    EXPECT_FALSE(tile.spec);
+    EXPECT_EQ(tile.code, "#IMPORT!");
+    EXPECT_EQ(tile.message, engine.dataset("open").failure->message);
 }
 
 } // namespace
