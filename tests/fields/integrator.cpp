@@ -1,5 +1,6 @@
 #include "fields/integrator.h"
 
+#include "fields/rays.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 
 namespace voxsheet::fields {
 namespace {
-
-/// A ray in the world: point(s) = origin + s * direction, s = view depth in world units.
-struct WorldRay {
-    glm::dvec3 origin;
-    glm::dvec3 direction;
-};
 
 struct Scene {
     const TileSpec& tile;
@@ -38,22 +33,6 @@ Scene makeScene(const TileSpec& tile, const Grid& grid, const glm::ivec3& levelD
             glm::inverse(tile.camera.viewFromWorld),
             (box.low + 0.5) / dims,
             (box.high + 0.5) / dims};
-}
-
-WorldRay rayOfPixel(const Scene& scene, double x, double y) {
-    const auto& camera = scene.tile.camera;
-    const glm::dvec2 size(scene.tile.sizePixels);
-    const auto ndc = glm::dvec2(x, y) / size * 2.0 - 1.0;
-    const double aspect = size.x / size.y;
-    const glm::dmat3 rotation(scene.worldFromView);
-    if (camera.projection == Projection::Perspective) {
-        const double tangent = std::tan(glm::radians(camera.fovYDegrees) / 2.0);
-        return {glm::dvec3(scene.worldFromView[3]),
-                rotation * glm::dvec3(ndc.x * tangent * aspect, ndc.y * tangent, -1.0)};
-    }
-    const double half = camera.heightWorld / 2.0;
-    const glm::dvec4 start(ndc.x * half * aspect, ndc.y * half, 0.0, 1.0);
-    return {glm::dvec3(scene.worldFromView * start), rotation * glm::dvec3(0.0, 0.0, -1.0)};
 }
 
 /// The same ray in the texture frame, and where it is inside the box.
@@ -159,7 +138,7 @@ Picture overPixels(const Scene& scene, int every, PixelOfRay pixelOfRay) {
     parallelFor(picture.size.y, 4, [&](long begin, long end) {
         for (int y = static_cast<int>(begin); y < end; ++y)
             for (int x = 0; x < picture.size.x; ++x)
-                if (const auto ray = traceBox(scene, rayOfPixel(scene, x * every + 0.5, y * every + 0.5)))
+                if (const auto ray = traceBox(scene, worldRay(scene.tile, x * every + 0.5, y * every + 0.5)))
                     picture.at(x, y) = pixelOfRay(*ray);
     });
     return picture;
@@ -194,7 +173,7 @@ double pathVoxels(const TileSpec& tile, const Grid& grid, const glm::ivec3& leve
     double sum = 0.0;
     for (int y = 0; y < tile.sizePixels.y; ++y)
         for (int x = 0; x < tile.sizePixels.x; ++x)
-            if (const auto ray = traceBox(scene, rayOfPixel(scene, x + 0.5, y + 0.5)))
+            if (const auto ray = traceBox(scene, worldRay(tile, x + 0.5, y + 0.5)))
                 sum += (ray->leave - ray->enter) * ray->voxelsPerDepth;
     return sum;
 }

@@ -5,14 +5,10 @@
 
 #include "fields/picture.h"
 #include "fields/sampled_field.h"
+#include "fields/sources.h"
 #include "stages/tile_spec.h"
 
-#include <functional>
-
 namespace voxsheet::fields {
-
-/// Value at a texture coordinate; NaN = absent. Must be safe to call from several threads.
-using ValueAt = std::function<double(const glm::dvec3& texture)>;
 
 /// The picture with samples exactly where `tile.technique` puts them, in a level of `levelDims` samples. No
 /// early end of rays.

@@ -1,5 +1,7 @@
 #include "fields/sampled_field.h"
 
+#include "fields/trilinear.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -81,28 +83,14 @@ Interpolant::Interpolant(const VolumeProvider& provider, const VolumeKey& key) {
 }
 
 double Interpolant::at(const glm::dvec3& texture) const {
-    const auto index = texture * glm::dvec3(dims_) - 0.5;
-    const auto base = glm::floor(index);
-    const auto weight = index - base;
-    const auto inside = [&](int axis, double position) {
-        const int n = dims_[axis];
-        const int i = static_cast<int>(position);
-        return periodic_[axis] ? ((i % n) + n) % n : std::clamp(i, 0, n - 1);
-    };
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        double product = 1.0;
-        glm::ivec3 sample(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            const int step = (corner >> axis) & 1;
-            product *= step != 0 ? weight[axis] : 1.0 - weight[axis];
-            sample[axis] = inside(axis, base[axis] + step);
-        }
-        if (product == 0.0) continue;
-        sum += product * values_[static_cast<std::size_t>(
-                             (static_cast<long>(sample.z) * dims_.y + sample.y) * dims_.x + sample.x)];
-    }
-    return sum;
+    return trilinear(values_, dims_, periodic_, texture);
+}
+
+double Interpolant::nearest(const glm::dvec3& texture) const {
+    const auto sample = glm::ivec3(
+        glm::clamp(glm::floor(texture * glm::dvec3(dims_)), glm::dvec3(0.0), glm::dvec3(dims_ - 1)));
+    return values_[static_cast<std::size_t>((static_cast<long>(sample.z) * dims_.y + sample.y) * dims_.x +
+                                            sample.x)];
 }
 
 } // namespace voxsheet::fields

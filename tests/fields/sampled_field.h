@@ -31,6 +31,8 @@ public:
     /// Trilinear between texel centres (i + 1/2) / dims; wraps on periodic axes, else clamps; NaN if a sample
     /// that counts is NaN.
     [[nodiscard]] double at(const glm::dvec3& texture) const;
+    /// The value of the sample whose voxel holds the coordinate; clamped to the first and last sample.
+    [[nodiscard]] double nearest(const glm::dvec3& texture) const;
     [[nodiscard]] const glm::ivec3& dims() const { return dims_; }
 
 private:

@@ -192,5 +192,49 @@ TEST_F(Residency, UploadsInChunksWithoutSeams) {
                 ASSERT_NEAR(values[i], value(x, y, z), 0.05) << i;
 }
 
+TEST_F(Residency, GradientTexturesAreBuiltOnceCountedAndEvicted) {
+    constexpr std::uint64_t gradientBytes = 2 * kBytes; // RGBA16F: 8 bytes for 4
+    ResidencyManager manager(context(), provider_, 4 * kBytes);
+    int built = 0;
+    const auto build = [&](const ResidentVolume& volume, gpu::Texture& gradients) {
+        ++built;
+        EXPECT_EQ(gradients.size(), volume.texture->size());
+        EXPECT_EQ(gradients.internalFormat(), static_cast<GLenum>(GL_RGBA16F));
+    };
+    {
+        const VolumeLease first = manager.acquireGradients({"a", 0, 0, 0}, FloatTexels::Full, build);
+        const VolumeLease second = manager.acquireGradients({"a", 0, 0, 0}, FloatTexels::Full, build);
+        EXPECT_EQ(first.volume().texture, second.volume().texture);
+        EXPECT_NE(first.volume().texture, manager.acquire({"a", 0, 0, 0}).volume().texture);
+    }
+    EXPECT_EQ(built, 1);
+    EXPECT_EQ(manager.state().residentBytes, kBytes + gradientBytes);
+    EXPECT_EQ(manager.state().residentBytes, context().counts().textureBytes);
+    EXPECT_EQ(manager.state().uploadedBytes, kBytes) << "gradients are not uploaded";
+    (void)manager.acquireGradients({"b", 0, 0, 0}, FloatTexels::Full, build);
+    EXPECT_LE(manager.state().residentBytes, 4 * kBytes);
+    EXPECT_GT(manager.state().evictions, 0U);
+    manager.forget("b");
+    manager.forget("a");
+    EXPECT_EQ(manager.state().residentBytes, 0U);
+    ResidencyManager small(context(), provider_, kBytes + gradientBytes - 1);
+    EXPECT_THROW((void)small.acquireGradients({"a", 0, 0, 0}, FloatTexels::Full, build), LimitExceeded);
+}
+
+TEST_F(Residency, HalfFloatTexturesStandBesideWholeOnes) {
+    ResidencyManager manager(context(), provider_, 10 * kBytes);
+    const VolumeLease whole = manager.acquire({"a", 0, 0, 0});
+    const VolumeLease half = manager.acquire({"a", 0, 0, 0}, FloatTexels::Half);
+    EXPECT_NE(whole.volume().texture, half.volume().texture);
+    EXPECT_EQ(manager.state().residentBytes, kBytes + kBytes / 2);
+    const auto exact = readValues(whole.volume());
+    const auto rounded = readValues(half.volume());
+    for (std::size_t i = 0; i < exact.size(); ++i)
+        ASSERT_NEAR(rounded[i], exact[i], 4096.0 / 2 / 2048) << i;
+    manager.forget("a");
+    EXPECT_FALSE(manager.isResident({"a", 0, 0, 0}));
+    EXPECT_FALSE(manager.isResident({"a", 0, 0, 0}, FloatTexels::Half));
+}
+
 } // namespace
 } // namespace voxsheet

@@ -24,6 +24,7 @@ public:
     [[nodiscard]] MemoryVolumeProvider& volumes() { return *volumes_; }
     [[nodiscard]] gpu::Context& context() { return context_; }
     [[nodiscard]] TechniqueSet& techniques() { return techniques_; }
+    [[nodiscard]] ResidencyManager& residency() { return residency_; }
 
     /// The picture of tile.dataset, field, step and level.
     [[nodiscard]] fields::Picture draw(const TileSpec& tile);

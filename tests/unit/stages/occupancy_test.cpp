@@ -109,5 +109,31 @@ TEST(Occupancy, AChunkOfSamplesFitsIntoTwiceTheReach) {
     EXPECT_EQ(chunkSamples(20.0), 1);
 }
 
+TEST(Occupancy, CrossedCellsHoldEveryCrossingWithinReach) {
+    const glm::ivec3 dims(40, 24, 33);
+    const glm::ivec3 sample(21, 9, 17);
+    const auto grid = gridWithOneSample(dims, sample, glm::bvec3(false));
+    const auto layout = CellLayout::of(dims);
+    const auto at = [&](const std::vector<std::uint8_t>& cells, const glm::ivec3& cell) {
+        return cells[static_cast<std::size_t>((cell.z * layout.cells.y + cell.y) * layout.cells.x + cell.x)];
+    };
+    const auto crossed = crossedCells(grid, dims, glm::bvec3(false), {0.5});
+    // The value is passed within one sample of the peak; a cell speaks for its reach around it.
+    for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                EXPECT_EQ(at(crossed, (sample + CellLayout::reachSamples * glm::ivec3(dx, dy, dz)) /
+                                          layout.cellSamples),
+                          1)
+                    << dx << dy << dz;
+    EXPECT_EQ(at(crossed, glm::ivec3(0)), 0) << "far away nothing is crossed";
+    const auto none = [](const std::vector<std::uint8_t>& cells) {
+        return std::all_of(cells.begin(), cells.end(), [](std::uint8_t cell) { return cell == 0; });
+    };
+    EXPECT_TRUE(none(crossedCells(grid, dims, glm::bvec3(false), {1.5, -0.5}))) << "out of range";
+    EXPECT_TRUE(none(crossedCells(grid, dims, glm::bvec3(false), {})));
+    EXPECT_EQ(crossedCells(grid, dims, glm::bvec3(false), {7.0, 0.5}), crossed) << "any of the values";
+}
+
 } // namespace
 } // namespace voxsheet

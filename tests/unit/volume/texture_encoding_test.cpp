@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -126,6 +127,29 @@ TEST(TextureEncoding, LargeArraysAreConvertedWhole) {
     for (std::size_t i = 0; i < stored.size(); ++i) {
         ASSERT_NEAR(values[i], static_cast<double>(stored[i]), 1e-9) << i;
     }
+}
+
+TEST(TextureEncoding, HalfFloatsSpreadOverTheRange) {
+    const std::vector<float> stored{-3.0F, -1.0F, 0.25F, 4.0F, 5.0F, std::nanf("")};
+    const auto encoding = chooseTextureEncoding(ScalarType::F32, -3.0, 5.0, false, FloatTexels::Half);
+    EXPECT_EQ(encoding.format, TexelFormat::R16F);
+    std::vector<std::byte> texels(2 * stored.size());
+    encodeTexels(ScalarType::F32, encoding, bytesOf(stored), texels);
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        std::uint16_t bits = 0;
+        std::memcpy(&bits, texels.data() + 2 * i, 2);
+        const double value = encoding.storedScale * double(glm::unpackHalf1x16(bits)) + encoding.storedOffset;
+        if (std::isnan(stored[i]))
+            EXPECT_TRUE(std::isnan(value));
+        else
+            EXPECT_NEAR(value, double(stored[i]), 4.0 / 2048) << "11 bits of half the range";
+    }
+    EXPECT_EQ(chooseTextureEncoding(ScalarType::U16, 0.0, 9.0, false, FloatTexels::Half).format,
+              TexelFormat::R16)
+        << "16-bit integers are exact as they are";
+    const auto constant = chooseTextureEncoding(ScalarType::F32, 2.5, 2.5, false, FloatTexels::Half);
+    EXPECT_EQ(constant.storedOffset, 2.5);
+    EXPECT_GT(constant.storedScale, 0.0);
 }
 
 TEST(TextureEncoding, RefusesSizesThatDoNotMatch) {

@@ -1,0 +1,232 @@
+#include "fields/inside.h"
+
+#include "volume/parallel_for.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxsheet::fields {
+namespace {
+
+struct Light {
+    glm::dvec3 colour{0.0};
+    double transmittance = 1.0;
+
+    void add(const glm::dvec3& rgb, double alpha) {
+        colour += transmittance * alpha * rgb;
+        transmittance *= 1.0 - alpha;
+    }
+    [[nodiscard]] glm::dvec4 pixel() const { return {colour, 1.0 - transmittance}; }
+};
+
+/// The stretch [begin, end] of a volume, as far as it is kept, one sample in the middle of that.
+void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
+    if (ray.sources.clip && ray.tile.clip.object->binary) {
+        if (!ray.isKept(0.5 * (begin + end))) return;
+    } else if (ray.sources.clip) {
+        const bool first = ray.isKept(begin);
+        const bool last = ray.isKept(end);
+        if (!first && !last) return;
+        if (first != last) (first ? end : begin) = ray.crossing(begin, end);
+    }
+    if (!(begin < end)) return;
+    const double depth = 0.5 * (begin + end);
+    const double value = ray.value(depth);
+    if (std::isnan(value)) return;
+    const auto entry = classify(*ray.tile.transfer, value);
+    const double exponent = (end - begin) * ray.lengthPerDepth / ray.tile.unitLengthWorld;
+    light.add(ray.lit(glm::dvec3(entry), ray.sampleNormal(depth)), 1.0 - std::pow(1.0 - entry.w, exponent));
+}
+
+/// Whole stretches from the front, and the shorter rest.
+template <typename Take>
+void overStretches(const RayTruth& ray, Take take) {
+    const double step = ray.tile.sampleDistanceVoxels / ray.voxelsPerDepth;
+    const double whole = std::floor((ray.range.end - ray.range.begin) / step);
+    for (double i = 0.0; i <= whole; i += 1.0)
+        take(ray.range.begin + i * step, std::min(ray.range.begin + (i + 1.0) * step, ray.range.end));
+}
+
+template <typename Take>
+void overSlabs(const RayTruth& ray, Take take) {
+    const auto& tile = ray.tile;
+    const double centre = -(tile.camera.viewFromWorld * glm::dvec4(centreWorld(ray.sources.grid), 1.0)).z;
+    const auto ahead = glm::dmat3(glm::inverse(tile.camera.viewFromWorld)) * glm::dvec3(0.0, 0.0, -1.0);
+    const auto voxels = glm::dmat3(glm::inverse(worldFromTexture(ray.sources.grid))) * ahead *
+                        glm::dvec3(ray.sources.levelDims);
+    const double thickness = tile.sampleDistanceVoxels / glm::length(voxels);
+    for (double k = std::floor((ray.range.begin - centre) / thickness);
+         centre + k * thickness < ray.range.end; k += 1.0)
+        take(std::max(ray.range.begin, centre + k * thickness),
+             std::min(ray.range.end, centre + (k + 1.0) * thickness));
+}
+
+glm::dvec4 maximumPixel(const RayTruth& ray) {
+    double largest = -std::numeric_limits<double>::infinity();
+    overStretches(ray, [&](double begin, double end) {
+        const double depth = 0.5 * (begin + end);
+        const double value = ray.value(depth);
+        if (!std::isnan(value) && ray.isKept(depth)) largest = std::max(largest, value);
+    });
+    if (std::isinf(largest)) return glm::dvec4(0.0);
+    const auto rgba = classify(*ray.tile.transfer, largest);
+    const double alpha = rgba.w / largestOpacity(*ray.tile.transfer);
+    return {glm::dvec3(rgba) * alpha, alpha};
+}
+
+glm::dvec4 facePixel(const RayTruth& ray) {
+    const auto hit = faceHit(ray);
+    if (!hit) return glm::dvec4(0.0);
+    const double value = ray.value(hit->depth);
+    if (std::isnan(value)) {
+        const glm::dvec4 nan(ray.tile.transfer->nan);
+        return {glm::dvec3(nan) * nan.w, nan.w};
+    }
+    return {ray.lit(glm::dvec3(classify(*ray.tile.transfer, value)), hit->normal), 1.0};
+}
+
+bool isInside(const IsosurfaceSpec& spec, double value) {
+    double positive = std::numeric_limits<double>::infinity();
+    double negative = -positive;
+    double smallest = positive;
+    for (const auto& surface : spec.surfaces) {
+        if (surface.value > 0.0) positive = std::min(positive, surface.value);
+        if (surface.value < 0.0) negative = std::max(negative, surface.value);
+        smallest = std::min(smallest, surface.value);
+    }
+    if (std::isinf(positive) && std::isinf(negative)) return value >= smallest;
+    return value >= positive || value <= negative;
+}
+
+/// Depths at which the ray comes into what is kept through a cut, and the cuts' normals: by planes and, in
+/// steps as the technique takes them, by the object.
+std::vector<FaceHit> cutEntries(const RayTruth& ray) {
+    std::vector<FaceHit> entries;
+    if (ray.range.cutPlane >= 0 && ray.isKept(ray.range.begin))
+        entries.push_back({ray.range.begin, ray.range.entryNormal});
+    if (!ray.sources.clip) return entries;
+    overStretches(ray, [&](double begin, double end) {
+        if (ray.isKept(begin) || !ray.isKept(end)) return;
+        const double depth = ray.crossing(begin, end);
+        entries.push_back({depth, ray.objectNormal(depth)});
+    });
+    return entries;
+}
+
+glm::dvec3 surfaceColour(const RayTruth& ray, const IsoHit& hit) {
+    const auto& surface = ray.tile.isosurface.surfaces[static_cast<std::size_t>(hit.surface)];
+    const glm::dvec3 own(surface.colour);
+    if (!ray.sources.colour) return own;
+    const auto& colour = *ray.sources.colour;
+    const auto texture =
+        glm::dvec3(glm::inverse(worldFromTexture(colour.grid)) * glm::dvec4(ray.ray.at(hit.depth), 1.0));
+    const auto box = boxIndex(colour.grid);
+    const auto low = (box.low + 0.5) / glm::dvec3(colour.grid.dims);
+    const auto high = (box.high + 0.5) / glm::dvec3(colour.grid.dims);
+    if (glm::any(glm::lessThan(texture, low)) || glm::any(glm::greaterThan(texture, high))) return own;
+    const double value = colour.value(texture);
+    return std::isnan(value) ? own : glm::dvec3(classify(*ray.tile.isosurface.colouredBy->transfer, value));
+}
+
+glm::dvec4 isosurfacePixel(const RayTruth& ray) {
+    struct Event {
+        double depth;
+        glm::dvec3 rgb;
+        double alpha;
+    };
+    std::vector<Event> events;
+    for (const auto& hit : isoHits(ray)) {
+        const auto& surface = ray.tile.isosurface.surfaces[static_cast<std::size_t>(hit.surface)];
+        events.push_back(
+            {hit.depth, ray.lit(surfaceColour(ray, hit), ray.gradient(hit.depth)), double(surface.colour.w)});
+    }
+    if (ray.tile.isosurface.caps)
+        for (const auto& cut : cutEntries(ray))
+            if (const double value = ray.value(cut.depth); isInside(ray.tile.isosurface, value))
+                events.push_back(
+                    {cut.depth, ray.lit(glm::dvec3(classify(*ray.tile.transfer, value)), cut.normal), 1.0});
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& a, const Event& b) { return a.depth < b.depth; });
+    Light light;
+    for (const auto& event : events)
+        light.add(event.rgb, event.alpha);
+    return light.pixel();
+}
+
+glm::dvec4 pixelOf(const RayTruth& ray) {
+    if (!(ray.range.begin < ray.range.end)) return glm::dvec4(0.0);
+    Light light;
+    const auto take = [&](double begin, double end) { addStretch(light, ray, begin, end); };
+    switch (ray.tile.technique) {
+    case Technique::Raycast:
+        overStretches(ray, take);
+        break;
+    case Technique::Slices:
+        overSlabs(ray, take);
+        break;
+    case Technique::Mip:
+        return maximumPixel(ray);
+    case Technique::Surface:
+        return facePixel(ray);
+    case Technique::Isosurface:
+        return isosurfacePixel(ray);
+    }
+    return light.pixel();
+}
+
+template <typename Visit>
+void overPixels(const TileSpec& tile, const Sources& sources, Visit visit) {
+    parallelFor(tile.sizePixels.y, 4, [&](long first, long last) {
+        for (int y = static_cast<int>(first); y < last; ++y)
+            for (int x = 0; x < tile.sizePixels.x; ++x)
+                visit(x, y, RayTruth(tile, sources, worldRay(tile, x + 0.5, y + 0.5)));
+    });
+}
+
+} // namespace
+
+std::optional<FaceHit> faceHit(const RayTruth& ray) {
+    const auto& range = ray.range;
+    if (!(range.begin < range.end)) return std::nullopt;
+    if (!range.fromEye && ray.isKept(range.begin)) return FaceHit{range.begin, range.entryNormal};
+    if (ray.sources.clip) {
+        // Fine steps: the technique's own are as long as the object is far at least.
+        const double step = 0.1 / ray.voxelsPerDepth;
+        for (double near = range.begin; near < range.end; near += step) {
+            const double far = std::min(near + step, range.end);
+            if (ray.isKept(near) || !ray.isKept(far)) continue;
+            const double depth = ray.tile.clip.object->binary ? far : ray.crossing(near, far);
+            return FaceHit{depth, ray.objectNormal(depth)};
+        }
+    }
+    if (range.fromEye && ray.isKept(range.end)) return FaceHit{range.end, range.exitNormal};
+    return std::nullopt;
+}
+
+Picture insidePicture(const TileSpec& tile, const Sources& sources) {
+    Picture picture(tile.sizePixels);
+    overPixels(tile, sources, [&](int x, int y, const RayTruth& ray) { picture.at(x, y) = pixelOf(ray); });
+    return picture;
+}
+
+std::vector<IsoHit> shownHits(const RayTruth& ray) {
+    auto hits = isoHits(ray);
+    if (ray.tile.isosurface.caps)
+        for (const auto& cut : cutEntries(ray))
+            if (isInside(ray.tile.isosurface, ray.value(cut.depth))) hits.push_back({cut.depth, -1});
+    std::stable_sort(hits.begin(), hits.end(),
+                     [](const IsoHit& x, const IsoHit& y) { return x.depth < y.depth; });
+    return hits;
+}
+
+std::vector<std::vector<IsoHit>> hitsOfPixels(const TileSpec& tile, const Sources& sources) {
+    const auto width = static_cast<std::size_t>(tile.sizePixels.x);
+    std::vector<std::vector<IsoHit>> hits(width * static_cast<std::size_t>(tile.sizePixels.y));
+    overPixels(tile, sources, [&](int x, int y, const RayTruth& ray) {
+        hits[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = shownHits(ray);
+    });
+    return hits;
+}
+
+} // namespace voxsheet::fields

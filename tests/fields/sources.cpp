@@ -1,0 +1,53 @@
+#include "fields/sources.h"
+
+#include "fields/index_slope.h"
+#include "fields/sampled_field.h"
+
+#include <memory>
+
+namespace voxsheet::fields {
+namespace {
+
+ValueAt valuesOf(const std::shared_ptr<const Interpolant>& interpolant) {
+    return [interpolant](const glm::dvec3& texture) { return interpolant->at(texture); };
+}
+
+ClipSource clipSourceOf(const VolumeProvider& volumes, const ClipObject& object) {
+    const auto interpolant = std::make_shared<const Interpolant>(volumes, VolumeKey{object.dataset, 0, 0, 0});
+    const auto meta = volumes.describe(object.dataset);
+    const auto trilinear = valuesOf(interpolant);
+    ClipSource source{meta->grid, interpolant->dims(), trilinear,
+                      onTheFlySlope(trilinear, interpolant->dims(), meta->grid.periodic)};
+    if (object.binary)
+        source.distance = [interpolant](const glm::dvec3& texture) { return interpolant->nearest(texture); };
+    return source;
+}
+
+} // namespace
+
+Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
+    const auto meta = volumes.describe(tile.dataset);
+    const auto interpolant = std::make_shared<const Interpolant>(
+        volumes, VolumeKey{tile.dataset, tile.field, tile.step, tile.level});
+    Sources sources;
+    sources.grid = meta->grid;
+    sources.levelDims = interpolant->dims();
+    sources.value = valuesOf(interpolant);
+    sources.indexSlope = tile.shading.gradient == GradientSource::Texture
+                             ? textureSlope(sources.value, sources.levelDims, meta->grid.periodic)
+                             : onTheFlySlope(sources.value, sources.levelDims, meta->grid.periodic);
+    const auto& statistics = meta->fields.at(static_cast<std::size_t>(tile.field))
+                                 .steps.at(static_cast<std::size_t>(tile.step))
+                                 .statistics;
+    sources.valueRange = statistics.max - statistics.min;
+    if (tile.clip.object) sources.clip = clipSourceOf(volumes, *tile.clip.object);
+    if (tile.isosurface.colouredBy) {
+        const auto& by = *tile.isosurface.colouredBy;
+        sources.colour = {volumes.describe(by.dataset)->grid,
+                          valuesOf(std::make_shared<const Interpolant>(
+                              volumes, VolumeKey{by.dataset, by.field, by.step, by.level}))};
+    }
+    return sources;
+}
+
+} // namespace voxsheet::fields
