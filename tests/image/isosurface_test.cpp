@@ -238,7 +238,8 @@ TEST_F(IsosurfaceTruth, BothSignsOfSignedData) {
 }
 
 TEST_F(IsosurfaceTruth, ThePlainTestLeavesGapsAndTheRefinedOneNone) {
-    // Few samples over a steep field: from one to the next the value changes by more than the test's tolerance.
+    // Few samples over a steep field: from one to the next the value changes by more than the test's
+    // tolerance.
     const auto grid = fields::gridOf(fields::Geometry::Isotropic, 20);
     add(fields::sphereDistance(0.7), grid, ScalarType::U8, "ball");
     auto tile = isoTile(grid, "ball", 0.0);
