@@ -107,6 +107,10 @@ void StoreWriter::publish() {
     throw IoError(target.string(), "an entry that cannot be read is in the way", "remove that folder");
 }
 
+void StoreWriter::addNotes(const std::vector<std::string>& notes) {
+    meta_.notes.insert(meta_.notes.end(), notes.begin(), notes.end());
+}
+
 void StoreWriter::commit() {
     if (!std::all_of(written_.begin(), written_.end(), [](bool done) { return done; }))
         throw InvalidInput("dataset '" + meta_.sourcePath + "'", "not every field and time step was read");

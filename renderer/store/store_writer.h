@@ -27,6 +27,9 @@ public:
     /// any order. Throws InvalidInput if the size is wrong or the array came already; IoError.
     void addArray(int field, int step, std::vector<std::byte>&& samples);
 
+    /// Adds to DatasetMeta::notes. Before commit().
+    void addNotes(const std::vector<std::string>& notes);
+
     /// Makes the entry visible under its key, durably. If another process made the same entry meanwhile, that
     /// one stays. Throws InvalidInput if an array is missing; IoError.
     void commit();

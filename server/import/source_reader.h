@@ -29,6 +29,7 @@ struct ImportOptions {
     glm::bvec3 flip{false};            ///< mirrors the volume along an index axis, within its own box
     std::optional<glm::bvec3> periodic;
     std::optional<double> noDataValue; ///< this source number becomes NaN
+    std::optional<int> resolution;     ///< of the volume made from a surface: samples along its longest axis
     std::optional<bool>
         divideByCellVolume; ///< CHGCAR family; by default decided by the name (LOCPOT, ELFCAR: no)
 };
@@ -88,10 +89,11 @@ public:
     [[nodiscard]] virtual SourceHeader readHeader(const std::filesystem::path& path,
                                                   const ImportOptions& options,
                                                   const ImportLimits& limits) const = 0;
-    /// Reads what `header` (from this reader's readHeader) describes. Throws as readHeader; arrays that went
-    /// to the sink before a throw are to be thrown away.
-    virtual void readData(const SourceHeader& header, const ArraySink& sink,
-                          const ReadProgress& progress) const = 0;
+    /// Reads what `header` (from this reader's readHeader) describes. Returns further notes for
+    /// DatasetMeta::notes: what only the data could tell. Throws as readHeader; arrays that went to the sink
+    /// before a throw are to be thrown away.
+    [[nodiscard]] virtual std::vector<std::string> readData(const SourceHeader& header, const ArraySink& sink,
+                                                            const ReadProgress& progress) const = 0;
 };
 
 } // namespace voxsheet::import

@@ -78,6 +78,21 @@ bool isMetaImage(std::string_view head) {
             head.find("DimSize") != std::string_view::npos);
 }
 
+/// Surfaces. A binary STL is known by its length: 80 bytes, a count of triangles and 50 bytes for each.
+std::optional<std::string> meshFormat(const std::filesystem::path& file, std::string_view head) {
+    if (head.starts_with("ply\n") || head.starts_with("ply\r")) return "ply";
+    if (head.starts_with("solid") && head.find("facet") != std::string_view::npos) return "stl";
+    if (head.size() >= 84) {
+        std::uint32_t triangles = 0;
+        std::memcpy(&triangles, head.data() + 80, sizeof(triangles));
+        std::error_code error;
+        if (std::filesystem::file_size(file, error) == 84 + std::uint64_t{triangles} * 50 && !error)
+            return "stl";
+    }
+    if (file.extension() == ".obj" && head.find("v ") != std::string_view::npos) return "obj";
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<std::string> guessFormat(const std::filesystem::path& file) {
@@ -91,6 +106,7 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
     if (text.starts_with("# vtk DataFile"))
         return text.find("STRUCTURED_POINTS") != std::string_view::npos ? std::optional<std::string>("vtk")
                                                                         : std::nullopt;
+    if (const auto mesh = meshFormat(file, text)) return mesh;
     if (isMetaImage(text)) return "metaimage";
     if (isChgcar(head)) return "chgcar";
     if (file.extension() == ".json" && text.find("\"dims\"") != std::string_view::npos) return "raw";

@@ -121,9 +121,9 @@ std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeSt
     writer = &entry;
     naming(job.file.string(), [&] {
         // The last hundredth is for syncing to the disk.
-        reader.readData(header, sink, [&job](double fraction) {
+        entry.addNotes(reader.readData(header, sink, [&job](double fraction) {
             if (job.progress) job.progress(0.99 * fraction);
-        });
+        }));
     });
     if (stampsOf(header) != stamps)
         throw IoError(job.file.string(), "it changed while it was being read", "import it again");

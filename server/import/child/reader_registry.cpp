@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "import/formats/own_readers.h"
+#include "import/mesh/mesh_reader.h"
 #include "import/vtk_legacy/legacy_vtk_reader.h"
 #ifdef VOXSHEET_HAS_VTK
 #include "import/vtk/vti_reader.h"
@@ -49,6 +50,9 @@ ReaderRegistry::ReaderRegistry() : readers_(makeOwnReaders()) {
 #ifdef VOXSHEET_HAS_VTK
     readers_.push_back(makeVtiReader());
 #endif
+    // Last: a binary STL is known by its length only.
+    for (auto& reader : makeMeshReaders())
+        readers_.push_back(std::move(reader));
 }
 
 const SourceReader& ReaderRegistry::choose(const std::filesystem::path& path,

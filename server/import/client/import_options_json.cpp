@@ -96,6 +96,8 @@ const std::map<std::string, Setter>& setters() {
              o.periodic = j.is_boolean() ? glm::bvec3(j.template get<bool>()) : booleans(m, j);
          }},
         {"no_data", [](auto& o, auto& m, auto& j) { o.noDataValue = number(m, j); }},
+        {"resolution",
+         [](auto& o, auto& m, auto& j) { o.resolution = static_cast<int>(integer(m, j, 16, 256)); }},
         {"divide_by_cell_volume", [](auto& o, auto& m, auto& j) { o.divideByCellVolume = boolean(m, j); }},
     };
     return table;
@@ -139,6 +141,7 @@ std::string canonicalOptions(const ImportOptions& o) {
     if (o.flip != glm::bvec3(false)) j["flip"] = booleansJson(o.flip);
     if (o.periodic) j["periodic"] = booleansJson(*o.periodic);
     if (o.noDataValue) j["no_data"] = *o.noDataValue;
+    if (o.resolution) j["resolution"] = *o.resolution;
     if (o.divideByCellVolume) j["divide_by_cell_volume"] = *o.divideByCellVolume;
     return j.dump();
 }

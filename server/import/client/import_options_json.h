@@ -17,6 +17,7 @@ namespace voxsheet::import {
 ///   "flip" [x, y, z] of booleans: mirrors along an index axis
 ///   "periodic" boolean, or [x, y, z] of booleans
 ///   "no_data" number: becomes NaN
+///   "resolution" 16 … 256: samples along the longest axis of the volume made from a surface (STL, PLY, OBJ)
 ///   "divide_by_cell_volume" boolean: CHGCAR family
 /// Throws InvalidInput, with the member as field, for unknown members, wrong types and values out of range.
 [[nodiscard]] ImportOptions importOptionsFromJson(const nlohmann::json& json);

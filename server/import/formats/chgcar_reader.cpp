@@ -171,8 +171,8 @@ SourceHeader ChgcarReader::readHeader(const std::filesystem::path& path, const I
     return source;
 }
 
-void ChgcarReader::readData(const SourceHeader& header, const ArraySink& sink,
-                            const ReadProgress& progress) const {
+std::vector<std::string> ChgcarReader::readData(const SourceHeader& header, const ArraySink& sink,
+                                                const ReadProgress& progress) const {
     const auto& plan = *static_cast<const ChgcarPlan*>(header.plan.get());
     const InputFile file(plan.file);
     auto text = openText(file);
@@ -191,6 +191,7 @@ void ChgcarReader::readData(const SourceHeader& header, const ArraySink& sink,
         sink(grid, 0, std::move(array));
     }
     if (progress) progress(1.0);
+    return {};
 }
 
 } // namespace voxsheet::import

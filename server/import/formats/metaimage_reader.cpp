@@ -118,9 +118,10 @@ SourceHeader MetaImageReader::readHeader(const std::filesystem::path& path, cons
     return source;
 }
 
-void MetaImageReader::readData(const SourceHeader& header, const ArraySink& sink,
-                               const ReadProgress& progress) const {
+std::vector<std::string> MetaImageReader::readData(const SourceHeader& header, const ArraySink& sink,
+                                                   const ReadProgress& progress) const {
     readVoxels(*static_cast<const VoxelPlan*>(header.plan.get()), header.meta.grid.dims, sink, progress);
+    return {};
 }
 
 } // namespace voxsheet::import

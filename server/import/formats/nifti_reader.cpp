@@ -226,9 +226,10 @@ SourceHeader NiftiReader::readHeader(const fs::path& path, const ImportOptions&,
     return source;
 }
 
-void NiftiReader::readData(const SourceHeader& header, const ArraySink& sink,
-                           const ReadProgress& progress) const {
+std::vector<std::string> NiftiReader::readData(const SourceHeader& header, const ArraySink& sink,
+                                               const ReadProgress& progress) const {
     readVoxels(*static_cast<const VoxelPlan*>(header.plan.get()), header.meta.grid.dims, sink, progress);
+    return {};
 }
 
 } // namespace voxsheet::import

@@ -142,9 +142,10 @@ SourceHeader NrrdReader::readHeader(const std::filesystem::path& path, const Imp
     return source;
 }
 
-void NrrdReader::readData(const SourceHeader& header, const ArraySink& sink,
-                          const ReadProgress& progress) const {
+std::vector<std::string> NrrdReader::readData(const SourceHeader& header, const ArraySink& sink,
+                                              const ReadProgress& progress) const {
     readVoxels(*static_cast<const VoxelPlan*>(header.plan.get()), header.meta.grid.dims, sink, progress);
+    return {};
 }
 
 } // namespace voxsheet::import

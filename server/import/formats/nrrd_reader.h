@@ -14,8 +14,8 @@ public:
     [[nodiscard]] bool recognises(const FileHead& head, const ImportOptions& options) const override;
     [[nodiscard]] SourceHeader readHeader(const std::filesystem::path& path, const ImportOptions& options,
                                           const ImportLimits& limits) const override;
-    void readData(const SourceHeader& header, const ArraySink& sink,
-                  const ReadProgress& progress) const override;
+    [[nodiscard]] std::vector<std::string> readData(const SourceHeader& header, const ArraySink& sink,
+                                                    const ReadProgress& progress) const override;
 };
 
 } // namespace voxsheet::import

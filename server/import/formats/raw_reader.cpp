@@ -135,9 +135,10 @@ SourceHeader RawReader::readHeader(const fs::path& path, const ImportOptions& op
     return source;
 }
 
-void RawReader::readData(const SourceHeader& header, const ArraySink& sink,
-                         const ReadProgress& progress) const {
+std::vector<std::string> RawReader::readData(const SourceHeader& header, const ArraySink& sink,
+                                             const ReadProgress& progress) const {
     readVoxels(*static_cast<const VoxelPlan*>(header.plan.get()), header.meta.grid.dims, sink, progress);
+    return {};
 }
 
 } // namespace voxsheet::import

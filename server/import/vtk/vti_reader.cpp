@@ -152,8 +152,8 @@ public:
         return source;
     }
 
-    void readData(const SourceHeader& header, const ArraySink& sink,
-                  const ReadProgress& progress) const override {
+    [[nodiscard]] std::vector<std::string> readData(const SourceHeader& header, const ArraySink& sink,
+                                                    const ReadProgress& progress) const override {
         const auto& plan = *static_cast<const VtiPlan*>(header.plan.get());
         const auto path = header.files.front().string();
         const auto tuples = static_cast<std::size_t>(sampleCount(header.meta.grid.dims));
@@ -171,6 +171,7 @@ public:
                      component(*array, c, tuples, scalarBytes(wanted.type)));
             if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(plan.arrays.size()));
         }
+        return {};
     }
 
 private:

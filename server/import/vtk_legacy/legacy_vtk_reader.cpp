@@ -93,8 +93,8 @@ public:
         return source;
     }
 
-    void readData(const SourceHeader& header, const ArraySink& sink,
-                  const ReadProgress& progress) const override {
+    [[nodiscard]] std::vector<std::string> readData(const SourceHeader& header, const ArraySink& sink,
+                                                    const ReadProgress& progress) const override {
         const auto& plan = *static_cast<const LegacyPlan*>(header.plan.get());
         for (std::size_t i = 0; i < plan.size(); ++i)
             readVoxels(
@@ -106,6 +106,7 @@ public:
                     if (progress)
                         progress((static_cast<double>(i) + fraction) / static_cast<double>(plan.size()));
                 });
+        return {};
     }
 };
 

@@ -75,7 +75,7 @@ inline Loaded load(const fs::path& path, const ImportOptions& options = {}, cons
                 EXPECT_EQ(voxels.size(), loaded.header.arrayBytes(field));
                 EXPECT_TRUE(loaded.arrays.emplace(std::pair(field, step), std::move(voxels)).second);
             });
-        reader->readData(loaded.header, sink, progress);
+        (void)reader->readData(loaded.header, sink, progress);
         EXPECT_EQ(loaded.arrays.size(), loaded.meta().fields.size() * loaded.meta().times.size());
         return loaded;
     }

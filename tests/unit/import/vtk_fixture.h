@@ -8,17 +8,18 @@
 
 namespace voxsheet::import::testing {
 
-inline Loaded loadAny(const fs::path& path) {
+inline Loaded loadAny(const fs::path& path, const ImportOptions& options = {}) {
     static const ReaderRegistry readers;
-    const auto& reader = readers.choose(path, {});
-    Loaded loaded{reader.readHeader(path, {}, {}), {}};
-    reader.readData(
+    const auto& reader = readers.choose(path, options);
+    Loaded loaded{reader.readHeader(path, options, {}), {}};
+    const auto notes = reader.readData(
         loaded.header,
         [&](int field, int step, std::vector<std::byte>&& voxels) {
             EXPECT_EQ(voxels.size(), loaded.header.arrayBytes(field));
             EXPECT_TRUE(loaded.arrays.emplace(std::pair(field, step), std::move(voxels)).second);
         },
         [](double) {});
+    loaded.header.meta.notes.insert(loaded.header.meta.notes.end(), notes.begin(), notes.end());
     EXPECT_EQ(loaded.arrays.size(), loaded.meta().fields.size());
     return loaded;
 }
