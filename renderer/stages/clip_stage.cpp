@@ -8,6 +8,8 @@
 namespace voxsheet {
 namespace {
 
+constexpr double kSmallest = 1e-37; ///< of normal 32-bit floats, nearly
+
 bool isAffineAndInvertible(const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -67,8 +69,12 @@ void ClipStage::bind(const gpu::Program& program, const TileSpec& tile, const Gr
     const auto objectFromTexture = clip.objectFromWorld * worldFromTexture(grid);
     program.set("clipFromTexture", glm::mat4(glm::inverse(worldFromTexture(objectGrid)) * objectFromTexture));
     program.set("objectFromTexture", glm::mat3(objectFromTexture));
-    const double sign = clip.mode == ClipMode::Probe ? -1.0 : 1.0;
-    program.set("measureFromTexel", glm::vec2(sign * object->valueScale, sign * object->valueOffset));
+    const bool probe = clip.mode == ClipMode::Probe;
+    const double sign = probe ? -1.0 : 1.0;
+    // Inside is below 0: a probe does not keep distances of exactly 0, which samples on a surface have.
+    const double onSurface = probe ? -kSmallest : 0.0;
+    program.set("measureFromTexel",
+                glm::vec2(sign * object->valueScale, sign * object->valueOffset + onSurface));
     program.set("clipTexelSize", 1.0F / glm::vec3(object->dims));
     // Interpolants and nearest samples of true distances are off by at most half a voxel's diagonal, at both
     // ends.

@@ -49,7 +49,7 @@ struct IsosurfaceSpec {
     std::optional<ColourVolume> colouredBy;
     /// Where a cut (clip planes or clip object, not the volume's own faces) opens a region whose value is at
     /// or above the smallest positive isovalue, or at or below the largest negative one, the cut face shows
-    /// the transfer function's opaque colours.
+    /// the transfer function's opaque colours. IsosurfaceMethod::Refined only.
     bool caps = false;
     IsosurfaceMethod method = IsosurfaceMethod::Refined;
 

@@ -1,5 +1,6 @@
 #include "fields/analytic_field.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -66,6 +67,22 @@ AnalyticField sphereDistance(double radius) {
     field.gradient = [](const glm::dvec3& p) {
         const double length = glm::length(p);
         return length > 0.0 ? p / length : glm::dvec3(0.0);
+    };
+    return field;
+}
+
+AnalyticField torusDistance(double radius, double tube) {
+    AnalyticField field;
+    field.name = "torus distance";
+    field.low = -tube;
+    // Farthest from the circle: a corner of the cube, or the middle of its faces across the axis.
+    field.high = std::max(std::hypot(std::sqrt(2.0) - radius, 1.0), std::hypot(radius, 1.0)) - tube;
+    field.value = [=](const glm::dvec3& p) { return std::hypot(std::hypot(p.x, p.y) - radius, p.z) - tube; };
+    field.gradient = [=](const glm::dvec3& p) {
+        const double r = std::hypot(p.x, p.y);
+        const double fromCircle = std::hypot(r - radius, p.z);
+        if (!(r > 0.0) || !(fromCircle > 0.0)) return glm::dvec3(0.0);
+        return glm::dvec3((r - radius) * p.x / r, (r - radius) * p.y / r, p.z) / fromCircle;
     };
     return field;
 }

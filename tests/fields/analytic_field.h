@@ -24,6 +24,10 @@ struct AnalyticField {
 /// Distance from the sphere of this radius about the centre, negative inside.
 [[nodiscard]] AnalyticField sphereDistance(double radius = 0.7);
 
+/// Distance from the tube of radius `tube` about the circle of this radius around the z axis, negative
+/// inside.
+[[nodiscard]] AnalyticField torusDistance(double radius = 0.6, double tube = 0.25);
+
 /// Marschner & Lobb, "An Evaluation of Reconstruction Filters for Volume Rendering", Visualization 1994,
 /// section 4:
 ///   rho = (1 - sin(pi z / 2) + alpha (1 + cos(2 pi f cos(pi r / 2)))) / (2 (1 + alpha)), r = |(x, y)|

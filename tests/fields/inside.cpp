@@ -136,12 +136,13 @@ glm::dvec4 isosurfacePixel(const RayTruth& ray) {
         double alpha;
     };
     std::vector<Event> events;
-    for (const auto& hit : isoHits(ray)) {
+    const bool refined = ray.tile.isosurface.method == IsosurfaceMethod::Refined;
+    for (const auto& hit : refined ? isoHits(ray) : plainTestHits(ray)) {
         const auto& surface = ray.tile.isosurface.surfaces[static_cast<std::size_t>(hit.surface)];
         events.push_back(
             {hit.depth, ray.lit(surfaceColour(ray, hit), ray.gradient(hit.depth)), double(surface.colour.w)});
     }
-    if (ray.tile.isosurface.caps)
+    if (refined && ray.tile.isosurface.caps)
         for (const auto& cut : cutEntries(ray))
             if (const double value = ray.value(cut.depth); isInside(ray.tile.isosurface, value))
                 events.push_back(
@@ -192,7 +193,7 @@ std::optional<FaceHit> faceHit(const RayTruth& ray) {
     if (!range.fromEye && ray.isKept(range.begin)) return FaceHit{range.begin, range.entryNormal};
     if (ray.sources.clip) {
         // Fine steps: the technique's own are as long as the object is far at least.
-        const double step = 0.1 / ray.voxelsPerDepth;
+        const double step = (ray.tile.clip.object->binary ? 1.0 / 64.0 : 0.1) / ray.voxelsPerDepth;
         for (double near = range.begin; near < range.end; near += step) {
             const double far = std::min(near + step, range.end);
             if (ray.isKept(near) || !ray.isKept(far)) continue;
@@ -210,22 +211,35 @@ Picture insidePicture(const TileSpec& tile, const Sources& sources) {
     return picture;
 }
 
+Picture insideConverged(TileSpec tile, const Sources& sources, double stepVoxels) {
+    tile.sampleDistanceVoxels = stepVoxels;
+    return insidePicture(tile, sources);
+}
+
+std::vector<IsoHit> plainTestHits(const RayTruth& ray) {
+    std::vector<IsoHit> hits;
+    const double tolerance = ray.sources.valueRange / 128.0;
+    const auto& surfaces = ray.tile.isosurface.surfaces;
+    if (ray.range.begin < ray.range.end)
+        overStretches(ray, [&](double begin, double end) {
+            const double depth = 0.5 * (begin + end);
+            if (!(begin < end) || !ray.isKept(depth)) return;
+            const double value = ray.value(depth);
+            for (std::size_t i = 0; i < surfaces.size(); ++i)
+                if (std::abs(value - surfaces[i].value) <= tolerance)
+                    hits.push_back({depth, static_cast<int>(i)});
+        });
+    return hits;
+}
+
 std::vector<IsoHit> shownHits(const RayTruth& ray) {
+    if (ray.tile.isosurface.method == IsosurfaceMethod::AlphaTest) return plainTestHits(ray);
     auto hits = isoHits(ray);
     if (ray.tile.isosurface.caps)
         for (const auto& cut : cutEntries(ray))
             if (isInside(ray.tile.isosurface, ray.value(cut.depth))) hits.push_back({cut.depth, -1});
     std::stable_sort(hits.begin(), hits.end(),
                      [](const IsoHit& x, const IsoHit& y) { return x.depth < y.depth; });
-    return hits;
-}
-
-std::vector<std::vector<IsoHit>> hitsOfPixels(const TileSpec& tile, const Sources& sources) {
-    const auto width = static_cast<std::size_t>(tile.sizePixels.x);
-    std::vector<std::vector<IsoHit>> hits(width * static_cast<std::size_t>(tile.sizePixels.y));
-    overPixels(tile, sources, [&](int x, int y, const RayTruth& ray) {
-        hits[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = shownHits(ray);
-    });
     return hits;
 }
 

@@ -34,6 +34,9 @@ struct RayTruth {
     [[nodiscard]] glm::dvec3 lit(const glm::dvec3& rgb, const glm::dvec3& normalWorld) const;
     /// Normal of a sample of a volume: the cut's within a voxel behind it, else the gradient's.
     [[nodiscard]] glm::dvec3 sampleNormal(double depth) const;
+    /// The last place in (depth - reach, depth] where the ray comes from what the object removes into what it
+    /// keeps.
+    [[nodiscard]] std::optional<double> lastEntry(double depth, double reach) const;
     /// Of two depths with measures of different sign: where the measure, linear in between, is 0.
     [[nodiscard]] double crossing(double begin, double end) const;
 
@@ -47,6 +50,9 @@ struct IsoHit {
     double depth = 0.0;
     int surface = 0; ///< of tile.isosurface.surfaces
 };
+
+/// Samples that the plain test (IsosurfaceMethod::AlphaTest) takes for hits, front to back.
+[[nodiscard]] std::vector<IsoHit> plainTestHits(const RayTruth& ray);
 
 /// All roots of the trilinear interpolant minus each isovalue inside the kept range and kept by the object,
 /// front to back.
@@ -62,10 +68,11 @@ struct FaceHit {
 /// The picture, for every technique, samples where tile.technique puts them.
 [[nodiscard]] Picture insidePicture(const TileSpec& tile, const Sources& sources);
 
-/// What an isosurface picture shows along the ray, front to back: isoHits() and caps (surface -1).
-[[nodiscard]] std::vector<IsoHit> shownHits(const RayTruth& ray);
+/// The same in steps of `stepVoxels`: converged as they go to 0 (not for IsosurfaceMethod::AlphaTest).
+[[nodiscard]] Picture insideConverged(TileSpec tile, const Sources& sources, double stepVoxels = 1.0 / 16.0);
 
-/// shownHits() of every pixel, row by row from the bottom.
-[[nodiscard]] std::vector<std::vector<IsoHit>> hitsOfPixels(const TileSpec& tile, const Sources& sources);
+/// What an isosurface picture shows along the ray, front to back: isoHits() and caps (surface -1); with
+/// IsosurfaceMethod::AlphaTest plainTestHits() alone.
+[[nodiscard]] std::vector<IsoHit> shownHits(const RayTruth& ray);
 
 } // namespace voxsheet::fields

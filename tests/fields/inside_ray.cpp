@@ -70,10 +70,24 @@ double RayTruth::crossing(double begin, double end) const {
     return begin + (end - begin) * first / (first - last);
 }
 
+std::optional<double> RayTruth::lastEntry(double depth, double reach) const {
+    if (!sources.clip) return std::nullopt;
+    constexpr int steps = 16;
+    const double step = reach / steps;
+    for (int i = 0; i < steps; ++i) {
+        const double far = depth - i * step;
+        const double near = std::max(far - step, range.begin);
+        if (!(near < far)) break;
+        if (isKept(near) || !isKept(far)) continue;
+        return tile.clip.object->binary ? far : crossing(near, far);
+    }
+    return std::nullopt;
+}
+
 glm::dvec3 RayTruth::sampleNormal(double depth) const {
+    if (!tile.shading.enabled) return glm::dvec3(0.0);
     const double voxel = 1.0 / voxelsPerDepth;
-    const double before = std::max(depth - voxel, range.begin);
-    if (sources.clip && !isKept(before)) return objectNormal(crossing(before, depth));
+    if (const auto entry = lastEntry(depth, voxel)) return objectNormal(*entry);
     if (range.cutPlane >= 0 && depth - range.begin <= voxel) return range.entryNormal;
     return gradient(depth);
 }

@@ -1,4 +1,5 @@
 // Isosurfaces against the double-precision roots of the trilinear interpolant.
+#include "fields/hit_map.h"
 #include "image/inside_scene.h"
 
 #include "base/errors.h"
@@ -11,40 +12,8 @@ namespace {
 
 constexpr int kPixels = 96;
 
-fields::AnalyticField torus() {
-    fields::AnalyticField field;
-    field.name = "torus distance";
-    field.low = -0.3;
-    field.high = 1.5;
-    field.value = [](const glm::dvec3& p) { return std::hypot(std::hypot(p.x, p.y) - 0.6, p.z) - 0.25; };
-    return field;
-}
-
-using PixelHits = std::vector<std::vector<fields::IsoHit>>;
-
-/// Whether two neighbouring pixels show the same surfaces at nearly the same depths.
-bool continues(const std::vector<fields::IsoHit>& a, const std::vector<fields::IsoHit>& b, double jump) {
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (a[i].surface != b[i].surface || std::abs(a[i].depth - b[i].depth) > jump) return false;
-    return true;
-}
-
-/// Pixels within one pixel of where hits come and go, or jump by more than `jump` in depth.
-std::vector<bool> silhouetteOf(const PixelHits& hits, glm::ivec2 size, double jump) {
-    std::vector<bool> near(hits.size());
-    const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * size.x + x); };
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const int nx = x + dx;
-                    const int ny = y + dy;
-                    if (nx < 0 || ny < 0 || nx >= size.x || ny >= size.y) continue;
-                    if (!continues(hits[at(x, y)], hits[at(nx, ny)], jump)) near[at(x, y)] = true;
-                }
-    return near;
-}
+using fields::PixelHits;
+using fields::silhouettes;
 
 class IsosurfaceTruth : public InsideScene {
 protected:
@@ -56,13 +25,13 @@ protected:
     }
 
     PixelHits hitsOf(const TileSpec& tile) {
-        return fields::hitsOfPixels(tile, fields::sourcesOf(painter.volumes(), tile));
+        return fields::isosurfaceHits(tile, fields::sourcesOf(painter.volumes(), tile));
     }
 
     /// As agree(), but for pixels at silhouettes.
     fields::Picture agreeInside(const TileSpec& tile, const Grid& grid, double leastDecibels = 45.0,
                                 std::size_t leastPixels = 300) {
-        const auto silhouette = silhouetteOf(hitsOf(tile), tile.sizePixels, 3.0 * meanVoxelEdgeWorld(grid));
+        const auto silhouette = silhouettes(hitsOf(tile), tile.sizePixels, 3.0 * meanVoxelEdgeWorld(grid));
         auto truth = fields::insidePicture(tile, fields::sourcesOf(painter.volumes(), tile));
         auto picture = painter.draw(tile);
         const auto whole = picture;
@@ -146,7 +115,7 @@ TEST_F(IsosurfaceTruth, HitsAreTheRootsWithNoHolesOnEveryFormat) {
         FloatTexels texels;
     };
     const auto grid = fields::gridOf(fields::Geometry::Isotropic, 40);
-    for (const auto& field : {torus(), fields::sphereDistance(0.7), fields::marschnerLobb()})
+    for (const auto& field : {fields::torusDistance(), fields::sphereDistance(0.7), fields::marschnerLobb()})
         for (const auto& format : {Format{"u8", ScalarType::U8, FloatTexels::Full},
                                    Format{"u16", ScalarType::U16, FloatTexels::Full},
                                    Format{"f32", ScalarType::F32, FloatTexels::Full},
@@ -156,7 +125,7 @@ TEST_F(IsosurfaceTruth, HitsAreTheRootsWithNoHolesOnEveryFormat) {
             auto tile = isoTile(grid, key, field.name == "Marschner-Lobb" ? 0.5 : 0.013);
             tile.floatTexels = format.texels;
             const auto hits = hitsOf(tile);
-            const auto silhouette = silhouetteOf(hits, tile.sizePixels, 4.0);
+            const auto silhouette = silhouettes(hits, tile.sizePixels, 4.0);
             sameMask(hits, silhouette, painter.draw(tile));
             const double worst = worstPositionVoxels(tile, grid, hits, silhouette);
             std::printf("%-28s farthest hit from its root: %.4f voxel\n", key.c_str(), worst);
@@ -244,7 +213,7 @@ TEST_F(IsosurfaceTruth, ThePlainTestLeavesGapsAndTheRefinedOneNone) {
     add(fields::sphereDistance(0.7), grid, ScalarType::U8, "ball");
     auto tile = isoTile(grid, "ball", 0.0);
     const auto hits = hitsOf(tile);
-    const auto silhouette = silhouetteOf(hits, tile.sizePixels, 4.0);
+    const auto silhouette = silhouettes(hits, tile.sizePixels, 4.0);
     const auto holes = [&](const fields::Picture& picture) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < hits.size(); ++i)

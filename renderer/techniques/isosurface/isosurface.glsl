@@ -131,7 +131,11 @@ int rankOf(float texel) {
 
 #if ALPHA_TEST
 void march(inout Light light, Path path) {
-    for (float depth = path.span.begin + 0.5 * path.spacing; depth < path.span.end && light.transmittance > kOpaque; depth += path.spacing) {
+    // One sample in the middle of each stretch, and of the shorter rest.
+    for (int step = 0; light.transmittance > kOpaque; ++step) {
+        float begin = path.span.begin + float(step) * path.spacing;
+        if (begin >= path.span.end) break;
+        float depth = 0.5 * (begin + min(begin + path.spacing, path.span.end));
         float texel = texelAtDepth(path, depth);
         for (int i = 0; i < SURFACES; ++i)
             if (abs(texel - surfaceTexels[i].x) <= tolerance) showCrossing(light, path, i, depth);

@@ -3,9 +3,9 @@
 // volume as their texture. Opaque.
 //
 // A pixel shows the value where its ray meets the face, by the transfer table's colour; NaN shows the table's
-// colour for it. With a clip object the ray goes on from the face, in steps of tile.sampleDistanceVoxels, to
-// the first point that the object keeps: so the object's own surface is capped too. With the eye inside what
-// is kept, the faces behind are seen from within. Normals are the faces' own.
+// colour for it. With a clip object the ray goes on from the face, in steps of tile.sampleDistanceVoxels but
+// at most one voxel, to the first point that the object keeps: so the object's own surface is capped too.
+// With the eye inside what is kept, the faces behind are seen from within. Normals are the faces' own.
 #pragma once
 
 #include "gpu/framebuffer.h"

@@ -25,22 +25,30 @@ float depthOnFace(Ray ray) {
 float firstEntry(ClipRay clip, float begin, float end, float step) {
     float near = begin;
     float measureNear = keptMeasure(clip, near);
-    while (near < end) {
+    float far = begin;
+    float measureFar = measureNear;
+    bool found = false;
+    while (!found && near < end) {
         // Distances say how far nothing can change.
         float safe = measureNear < 0.0 ? (-measureNear - nearestSampleSlack) / (1.1 * clip.lengthPerDepth) : 0.0;
-        float far = min(near + max(step, safe), end);
-        float measureFar = keptMeasure(clip, far);
-        if (measureNear < 0.0 && measureFar >= 0.0) {
-#if CLIP_OBJECT == 2
-            return far;
-#else
-            return clipCrossing(near, far, measureNear, measureFar);
-#endif
-        }
+        far = min(near + max(step, safe), end);
+        measureFar = keptMeasure(clip, far);
+        found = measureNear < 0.0 && measureFar >= 0.0;
+        if (found) break;
         near = far;
         measureNear = measureFar;
     }
-    return -1e30;
+    if (!found) return -1e30;
+#if CLIP_OBJECT == 2
+    // The face of a voxel, to 1/64 of a step.
+    for (int i = 0; i < 6; ++i) {
+        float middle = 0.5 * (near + far);
+        if (keptMeasure(clip, middle) >= 0.0) far = middle; else near = middle;
+    }
+    return far;
+#else
+    return clipCrossing(near, far, measureNear, measureFar);
+#endif
 }
 #endif
 
@@ -55,7 +63,7 @@ void main() {
     KeptSpan span = keptSpan(ray);
     float begin = eyeInside ? rayNearest : onFace;
     float end = eyeInside ? onFace : max(span.end, onFace);
-    float step = sampleDistanceVoxels / length(ray.direction * voxelsPerTexture);
+    float step = min(sampleDistanceVoxels, 1.0) / length(ray.direction * voxelsPerTexture);
     if (eyeInside || keptMeasure(clip, onFace) < 0.0) {
         float entry = firstEntry(clip, begin, end, step);
         if (entry > -1e29) {

@@ -14,7 +14,8 @@ namespace {
 TEST(AnalyticField, GradientsAreDerivatives) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-0.9, 0.9);
-    for (const auto& field : {linearRamp(), sphereDistance(), marschnerLobb(), gaussianSum()})
+    for (const auto& field :
+         {linearRamp(), sphereDistance(), torusDistance(), marschnerLobb(), gaussianSum()})
         for (int trial = 0; trial < 100; ++trial) {
             const glm::dvec3 p(uniform(random), uniform(random), uniform(random));
             EXPECT_GE(field.value(p), field.low) << field.name;
