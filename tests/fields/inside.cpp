@@ -233,13 +233,18 @@ std::vector<IsoHit> plainTestHits(const RayTruth& ray) {
 }
 
 std::vector<IsoHit> shownHits(const RayTruth& ray) {
-    if (ray.tile.isosurface.method == IsosurfaceMethod::AlphaTest) return plainTestHits(ray);
-    auto hits = isoHits(ray);
-    if (ray.tile.isosurface.caps)
+    const auto& isosurface = ray.tile.isosurface;
+    const bool refined = isosurface.method == IsosurfaceMethod::Refined;
+    auto hits = refined ? isoHits(ray) : plainTestHits(ray);
+    if (refined && isosurface.caps)
         for (const auto& cut : cutEntries(ray))
-            if (isInside(ray.tile.isosurface, ray.value(cut.depth))) hits.push_back({cut.depth, -1});
+            if (isInside(isosurface, ray.value(cut.depth))) hits.push_back({cut.depth, -1});
     std::stable_sort(hits.begin(), hits.end(),
                      [](const IsoHit& x, const IsoHit& y) { return x.depth < y.depth; });
+    const auto opaque = std::find_if(hits.begin(), hits.end(), [&](const IsoHit& hit) {
+        return hit.surface < 0 || isosurface.surfaces[static_cast<std::size_t>(hit.surface)].colour.w >= 1.0F;
+    });
+    if (opaque != hits.end()) hits.erase(opaque + 1, hits.end());
     return hits;
 }
 

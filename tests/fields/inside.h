@@ -71,8 +71,8 @@ struct FaceHit {
 /// The same in steps of `stepVoxels`: converged as they go to 0 (not for IsosurfaceMethod::AlphaTest).
 [[nodiscard]] Picture insideConverged(TileSpec tile, const Sources& sources, double stepVoxels = 1.0 / 16.0);
 
-/// What an isosurface picture shows along the ray, front to back: isoHits() and caps (surface -1); with
-/// IsosurfaceMethod::AlphaTest plainTestHits() alone.
+/// What an isosurface picture shows along the ray, front to back, up to the first opaque one: isoHits() and
+/// caps (surface -1); with IsosurfaceMethod::AlphaTest plainTestHits() alone.
 [[nodiscard]] std::vector<IsoHit> shownHits(const RayTruth& ray);
 
 } // namespace voxsheet::fields

@@ -32,7 +32,7 @@ protected:
 
     /// Draws and compares with the truth at the same positions; returns the picture.
     fields::Picture agree(const TileSpec& tile, double leastDecibels = 45.0, std::size_t leastPixels = 300) {
-        const auto truth = fields::insidePicture(tile, fields::sourcesOf(painter.volumes(), tile));
+        const auto truth = fields::insidePicture(tile, fields::sourcesOf(painter.provider(), tile));
         auto picture = painter.draw(tile);
         const auto same = fields::difference(picture, truth);
         std::printf("%-11s %6.1f dB (alpha %6.1f, p99.9 %.1e) %zu pixels\n", fields::nameOf(tile.technique),

@@ -9,7 +9,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <random>
 #include <sstream>
 
@@ -135,16 +134,6 @@ protected:
         return tile;
     }
 
-    void addClipShapes() {
-        for (const auto name : clipShapeNames()) {
-            const auto shape = *clipShapeFromName(name);
-            const auto samples = clipShapeSamples(shape);
-            std::vector<std::byte> bytes(samples.size() * sizeof(float));
-            std::memcpy(bytes.data(), samples.data(), bytes.size());
-            painter.volumes().add(clipShapeMeta(shape), {std::move(bytes)});
-        }
-    }
-
 private:
     std::mt19937 random_{static_cast<unsigned>(GetParam()) + 7};
 };
@@ -201,7 +190,6 @@ std::vector<bool> undecidedPixels(const TileSpec& tile, const Grid& grid, const 
 }
 
 TEST_P(RandomTiles, AgreeWithTheTruthAndWithThemselves) {
-    addClipShapes();
     for (int trial = 0; trial < kTiles; ++trial) {
         const auto grid = randomGrid();
         const auto tile = randomTile(grid, trial);
@@ -216,7 +204,7 @@ TEST_P(RandomTiles, AgreeWithTheTruthAndWithThemselves) {
         painter.techniques().setShaderFiltering(false);
         // Long steps miss surfaces that they pass twice, wherever these are.
         if (GetParam() == Technique::Isosurface && tile.sampleDistanceVoxels > 0.6) continue;
-        const auto sources = fields::sourcesOf(painter.volumes(), tile);
+        const auto sources = fields::sourcesOf(painter.provider(), tile);
         const auto apart = pixelsApart(picture, fields::insidePicture(tile, sources), 0.01,
                                        undecidedPixels(tile, grid, sources));
         std::printf("%3zu of %4zu pixels apart: %s\n", apart, picture.pixels.size(), name.c_str());

@@ -10,8 +10,9 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{1} << 30;
 } // namespace
 
 TilePainter::TilePainter()
-    : volumes_(std::make_shared<MemoryVolumeProvider>()), residency_(context_, volumes_, kBudgetBytes),
-      techniques_(context_) {}
+    : volumes_(std::make_shared<MemoryVolumeProvider>()),
+      withShapes_(std::make_shared<const ClipShapeProvider>(volumes_)),
+      residency_(context_, withShapes_, kBudgetBytes), techniques_(context_) {}
 
 // Another context may be current by now; GL objects are destroyed in their own.
 TilePainter::~TilePainter() { context_.makeCurrent(); }

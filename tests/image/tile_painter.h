@@ -6,6 +6,7 @@
 #include "gpu/context.h"
 #include "residency/residency_manager.h"
 #include "techniques/technique_set.h"
+#include "volume/clip_shape_provider.h"
 #include "volume/memory_volume_provider.h"
 
 #include <memory>
@@ -21,7 +22,10 @@ public:
     TilePainter(const TilePainter&) = delete;
     TilePainter& operator=(const TilePainter&) = delete;
 
+    /// To add volumes to.
     [[nodiscard]] MemoryVolumeProvider& volumes() { return *volumes_; }
+    /// All that tiles can name: the volumes added and the clip shapes.
+    [[nodiscard]] const VolumeProvider& provider() const { return *withShapes_; }
     [[nodiscard]] gpu::Context& context() { return context_; }
     [[nodiscard]] TechniqueSet& techniques() { return techniques_; }
     [[nodiscard]] ResidencyManager& residency() { return residency_; }
@@ -34,6 +38,7 @@ public:
 private:
     gpu::Context context_;
     std::shared_ptr<MemoryVolumeProvider> volumes_;
+    std::shared_ptr<const ClipShapeProvider> withShapes_;
     ResidencyManager residency_;
     TechniqueSet techniques_;
     double lastMs_ = 0.0;

@@ -155,6 +155,12 @@ struct March {
     float atEnd;
     int rankBegin;
     int rankEnd;
+    float atStep;   // where the whole step begins, whatever `begin` is
+    float atBefore; // a step before that
+    bool mayTurn;   // the value had been heading for a surface but did not pass it at the step's end
+    bool isSplit;   // the rest of the step, behind `end`, is looked at next: up to
+    float wholeEnd;
+    float atWholeEnd;
 #if CAPS && CLIP_OBJECT
     float measureBegin;
     float measureEnd;
@@ -188,6 +194,8 @@ void toNextStep(inout March at) {
     at.begin = at.end;
     at.atBegin = at.atEnd;
     at.rankBegin = at.rankEnd;
+    at.atBefore = at.atStep;
+    at.atStep = at.atEnd;
 #if CAPS && CLIP_OBJECT
     at.measureBegin = at.measureEnd;
 #endif
@@ -199,15 +207,66 @@ void enter(Path path, inout March at) {
     at.begin = chunkBegin(path, at.chunk);
     at.atBegin = texelAtDepth(path, at.begin);
     at.rankBegin = rankOf(at.atBegin);
+    at.atStep = at.atBegin;
+    at.atBefore = texelAtDepth(path, at.begin - path.spacing);
+    at.isSplit = false;
 #if CAPS && CLIP_OBJECT
     at.measureBegin = keptMeasure(path.clip, at.begin);
 #endif
 }
 
-// Goes on to the next step in which something happens. All loops and no branches around costly code: where a driver runs
+// Whether the value may pass a surface and come back within the step: it had been heading for one. (Where a value bends back,
+// as on a ridge, it stays on this side of its straight continuation.)
+bool isHeadingForSurface(March at) {
+    int ahead = rankOf(2.0 * at.atStep - at.atBefore);
+    return ahead >= 0 && at.rankBegin >= 0 && at.rankEnd == at.rankBegin && ahead != at.rankBegin;
+}
+
+// Splits a step in which the value passes a surface and turns back at a point beyond the surface, found by golden section.
+void splitAtTurn(Path path, inout March at) {
+    float side = at.atStep > at.atBefore ? 1.0 : -1.0;
+    float a = at.begin, b = at.end;
+    float turn = a;
+    float atTurn = at.atBegin;
+    for (int i = 0; i < 8 && at.mayTurn; ++i) {
+        float guess = b - turn > turn - a ? mix(turn, b, 0.382) : mix(turn, a, 0.382);
+        float texel = texelAtDepth(path, guess);
+        bool better = side * texel > side * atTurn;
+        if ((guess > turn) == better) a = better ? turn : guess; else b = better ? turn : guess;
+        if (better) { turn = guess; atTurn = texel; }
+        int rank = rankOf(atTurn);
+        at.isSplit = rank >= 0 && rank != at.rankBegin;
+        if (at.isSplit) {
+            at.wholeEnd = at.end;
+            at.atWholeEnd = at.atEnd;
+            at.end = turn;
+            at.atEnd = atTurn;
+            at.rankEnd = rank;
+            break;
+        }
+    }
+}
+
+// To the second part of a split step.
+void toRestOfStep(inout March at) {
+    at.isSplit = false;
+    at.begin = at.end;
+    at.atBegin = at.atEnd;
+    at.rankBegin = at.rankEnd;
+    at.end = at.wholeEnd;
+    at.atEnd = at.atWholeEnd;
+    at.rankEnd = rankOf(at.atEnd);
+}
+
+// Goes on to the next step in which something happens or may happen. All loops and no branches around costly code: where a driver runs
 // SIMD groups with masks, code in a branch that no ray takes still costs its time.
-bool seekEvent(Path path, inout March at) {
+bool seekStep(Path path, inout March at) {
+    at.mayTurn = false;
     bool found = at.entered && hasEvent(at);
+    if (!found && at.isSplit) {
+        toRestOfStep(at);
+        found = hasEvent(at);
+    }
     while (!found && at.chunk < at.chunks) {
         if (at.entered) toNextStep(at);
         while (!at.entered && at.chunk < at.chunks && !isWorthEntering(path, at)) ++at.chunk;
@@ -221,6 +280,8 @@ bool seekEvent(Path path, inout March at) {
             at.measureEnd = keptMeasure(path.clip, at.end);
 #endif
             found = hasEvent(at);
+            at.mayTurn = !found && isHeadingForSurface(at);
+            found = found || at.mayTurn;
             if (found) break;
             toNextStep(at);
         }
@@ -228,6 +289,18 @@ bool seekEvent(Path path, inout March at) {
             at.entered = false;
             ++at.chunk;
         }
+    }
+    return found;
+}
+
+// Goes on to the next step in which something happens.
+bool seekEvent(Path path, inout March at) {
+    bool found = false;
+    bool goesOn = true;
+    while (goesOn) {
+        found = seekStep(path, at);
+        splitAtTurn(path, at);
+        goesOn = at.mayTurn && !at.isSplit;
     }
     return found;
 }
@@ -258,6 +331,7 @@ void march(inout Light light, Path path) {
 #if CAPS
     showEntryCap(light, path);
 #endif
+    at.isSplit = false;
     while (light.transmittance > kOpaque) {
         if (!seekEvent(path, at)) break;
         showEvent(light, path, at);

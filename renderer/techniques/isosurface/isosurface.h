@@ -4,9 +4,10 @@
 // Along a ray the interpolated value is looked at from the beginning of the kept span on, in steps of
 // tile.sampleDistanceVoxels of the drawn level, and at the span's end. Where it passes one of the values
 // within a step, the crossing is enclosed by regula falsi and short steps until it is known to 0.01 voxel.
-// Crossings are composited front to back with their surface's own alpha. Two crossings of one value within a
-// step are not seen: with half a voxel per step they are at silhouettes. A crossing that the clip object
-// removes does not count. A step that touches NaN has no crossing.
+// Crossings are composited front to back with their surface's own alpha. Where the value was heading for a
+// surface and did not reach it by the end of a step, the turn in between is looked for, so that both
+// crossings of a ridge within a step are found; a ridge that begins and ends within one step is not. A
+// crossing that the clip object removes does not count. A step that touches NaN has no crossing.
 //
 // Caps: where the ray enters what is kept through a clip plane or the clip object, inside the surface (at or
 // above the smallest positive value or at or below the largest negative one; with neither, at or above the
