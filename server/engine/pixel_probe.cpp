@@ -171,8 +171,9 @@ private:
         std::optional<PixelHit> first;
         for (const Isosurface& surface : tile_.isosurface.surfaces) {
             if (surface.colour.w <= 0.0F) continue;
+            // Finer than the picture's steps: it keeps ridges that are thinner than these.
             const auto depth = firstCrossing([this](double s) { return value(s); }, surface.value, stretch,
-                                             stretch.length());
+                                             0.25 * stretch.length());
             if (!depth || !keeps(*depth) || (first && first->depth <= *depth)) continue;
             first = at(*depth, HitKind::Isosurface);
             first->isovalue = surface.value;
