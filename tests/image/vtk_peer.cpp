@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "gpu/context.h"
+#include "image/vtk_image.h"
 
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
@@ -12,6 +13,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
@@ -20,7 +22,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
 
 namespace voxsheet::image {
 namespace {
@@ -43,37 +44,6 @@ public:
     }
 };
 vtkStandardNewMacro(PeerWindow);
-
-int vtkTypeOf(ScalarType type) {
-    switch (type) {
-    case ScalarType::U8:
-        return VTK_UNSIGNED_CHAR;
-    case ScalarType::U16:
-        return VTK_UNSIGNED_SHORT;
-    case ScalarType::F32:
-        return VTK_FLOAT;
-    default:
-        throw Unsupported("comparison with VTK",
-                          std::string("it does not cover samples of type ") + scalarName(type));
-    }
-}
-
-vtkSmartPointer<vtkImageData> imageOf(const fields::SampledField& sampled) {
-    const auto& grid = sampled.meta.grid;
-    const auto& m = grid.worldFromIndex;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (row != column && m[column][row] != 0.0)
-                throw Unsupported("comparison with VTK", "the grid is rotated or sheared");
-    auto image = vtkSmartPointer<vtkImageData>::New();
-    image->SetDimensions(grid.dims.x, grid.dims.y, grid.dims.z);
-    image->SetSpacing(m[0][0], m[1][1], m[2][2]);
-    image->SetOrigin(m[3][0], m[3][1], m[3][2]);
-    image->AllocateScalars(vtkTypeOf(sampled.meta.fields[0].storedType), 1);
-    const auto& bytes = sampled.arrays.at(0);
-    std::memcpy(image->GetScalarPointer(), bytes.data(), bytes.size());
-    return image;
-}
 
 /// Control points at every entry, in stored numbers: VTK knows no slope and intercept.
 void setTransfer(vtkVolumeProperty* property, const TransferTable& table, const FieldMeta& field) {
@@ -101,6 +71,29 @@ void fixDistances(Mapper* mapper, double sampleDistanceWorld) {
     mapper->SetSampleDistance(static_cast<float>(sampleDistanceWorld));
 }
 
+/// VTK's mappers keep what lies on the side that a plane's normal points to, as we do.
+void setPlanes(vtkVolumeMapper* mapper, const std::vector<ClipPlane>& planes) {
+    mapper->RemoveAllClippingPlanes();
+    for (const auto& plane : planes) {
+        vtkNew<vtkPlane> theirs;
+        const auto on = plane.offset * plane.normal;
+        theirs->SetOrigin(on.x, on.y, on.z);
+        theirs->SetNormal(plane.normal.x, plane.normal.y, plane.normal.z);
+        mapper->AddClippingPlane(theirs);
+    }
+}
+
+void setShading(vtkVolumeProperty* property, const ShadingSpec& shading) {
+    property->SetShade(shading.enabled ? 1 : 0);
+    if (!shading.enabled) return;
+    if (!shading.lightsView.empty() || shading.headLight != 1.0)
+        throw Unsupported("comparison with VTK", "it covers a full head light alone");
+    property->SetAmbient(shading.ambient);
+    property->SetDiffuse(shading.diffuse);
+    property->SetSpecular(shading.specular);
+    property->SetSpecularPower(shading.shininess);
+}
+
 } // namespace
 
 class VtkPeer::Implementation {
@@ -110,15 +103,14 @@ public:
         if (kind == VtkMapper::Gpu) {
             gpu_ = vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper>::New();
             gpu_->SetUseJittering(0);
-            gpu_->SetInputData(imageOf(sampled));
+            gpu_->SetInputData(vtkImageOf(sampled));
             volume_->SetMapper(gpu_);
         } else {
             cpu_ = vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>::New();
-            cpu_->SetInputData(imageOf(sampled));
+            cpu_->SetInputData(vtkImageOf(sampled));
             volume_->SetMapper(cpu_);
         }
         volume_->GetProperty()->SetInterpolationTypeToLinear();
-        volume_->GetProperty()->ShadeOff();
         renderer_->SetBackground(0.0, 0.0, 0.0);
         renderer_->AddVolume(volume_);
         window_->SetOwnContext(0);
@@ -153,9 +145,19 @@ public:
         return picture;
     }
 
+    void crop(const glm::dvec3& low, const glm::dvec3& high) {
+        mapper()->SetCropping(1);
+        mapper()->SetCroppingRegionFlagsToSubVolume();
+        mapper()->SetCroppingRegionPlanes(low.x, high.x, low.y, high.y, low.z, high.z);
+    }
+
     double lastMs_ = 0.0;
 
 private:
+    [[nodiscard]] vtkVolumeMapper* mapper() const {
+        return gpu_ != nullptr ? static_cast<vtkVolumeMapper*>(gpu_) : static_cast<vtkVolumeMapper*>(cpu_);
+    }
+
     /// What is the same from frame to frame in a rotation; not timed.
     void prepare(const TileSpec& tile) {
         if (table_ != tile.transfer) {
@@ -163,6 +165,8 @@ private:
             table_ = tile.transfer;
         }
         volume_->GetProperty()->SetScalarOpacityUnitDistance(tile.unitLengthWorld);
+        setShading(volume_->GetProperty(), tile.shading);
+        setPlanes(mapper(), tile.clip.planes);
         window_->SetSize(tile.sizePixels.x, tile.sizePixels.y);
         // VTK's distance is in the world and the same in all directions: along the central ray it is ours.
         const auto view = glm::inverse(tile.camera.viewFromWorld);
@@ -204,6 +208,10 @@ VtkPeer::VtkPeer(const fields::SampledField& sampled, VtkMapper mapper)
 VtkPeer::~VtkPeer() = default;
 
 fields::Picture VtkPeer::draw(const TileSpec& tile) { return implementation_->draw(tile); }
+
+void VtkPeer::crop(const glm::dvec3& lowWorld, const glm::dvec3& highWorld) {
+    implementation_->crop(lowWorld, highWorld);
+}
 
 double VtkPeer::lastMs() const { return implementation_->lastMs_; }
 

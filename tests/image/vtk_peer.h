@@ -15,8 +15,9 @@ enum class VtkMapper {
 };
 
 /// One volume shown by one mapper, set up so that the comparison is fair: automatic sample distances off,
-/// image sample distance 1, no jitter, no shading, linear interpolation, the tile's sample distance, unit
-/// length, table (every entry a control point), view and projection, black background, no multisampling. The
+/// image sample distance 1, no jitter, linear interpolation, the tile's sample distance, unit
+/// length, table (every entry a control point), clip planes, shading (a full head light alone; VTK's shines
+/// along the view direction, ours from the eye), view and projection, black background, no multisampling. The
 /// mappers end rays by their own fixed rule (opacity above 1 - 1/255).
 class VtkPeer {
 public:
@@ -29,6 +30,8 @@ public:
 
     /// The picture in 8 bits, as VTK gives it to the host; alpha is 1 throughout.
     [[nodiscard]] fields::Picture draw(const TileSpec& tile);
+    /// From now on only what lies in this box of the world is drawn (VTK's own cropping).
+    void crop(const glm::dvec3& lowWorld, const glm::dvec3& highWorld);
     /// Milliseconds of the last draw(), from the change of the camera to the pixels on the host.
     [[nodiscard]] double lastMs() const;
 
