@@ -3,7 +3,12 @@
 
 #include "base/errors.h"
 
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace voxsheet::image {
@@ -127,6 +132,90 @@ TEST_F(IsosurfaceCases, TheShaderCanFilterForItself) {
             // Both interpolate in 32-bit floats; they round differently.
             EXPECT_GT(fields::difference(filtered, own).psnr, 60.0) << fields::nameOf(technique);
         }
+    }
+}
+
+TEST_F(IsosurfaceCases, ThePlainTestIsWhatItSays) {
+    const auto grid = fields::gridOf(fields::Geometry::Anisotropic, 24);
+    add(fields::gaussianSum(), grid, ScalarType::U16, "plain");
+    auto tile = isoTile(grid, "plain", 0.4);
+    tile.isosurface.surfaces.push_back({0.2, {0.2F, 0.5F, 0.9F, 0.5F}});
+    tile.isosurface.method = IsosurfaceMethod::AlphaTest;
+    tile.shading.enabled = true;
+    const auto truth = fields::insidePicture(tile, fields::sourcesOf(painter.provider(), tile));
+    const auto picture = painter.draw(tile);
+    // A value at the limit of the test may fall to either side: some pixels have one more layer.
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+        apart += glm::distance(truth.pixels[i], picture.pixels[i]) > 0.01 ? 1U : 0U;
+    EXPECT_LE(apart, 5U);
+    EXPECT_GT(fields::difference(truth, picture).pixels, 300U);
+}
+
+TEST_F(IsosurfaceCases, TheOrderOfSurfacesDoesNotMatter) {
+    const auto grid = fields::gridOf(fields::Geometry::Isotropic, 32);
+    add(fields::gaussianSum(), grid, ScalarType::F32, "order");
+    auto tile = isoTile(grid, "order", 0.3);
+    tile.isosurface.surfaces = {
+        {0.5, {0.9F, 0.4F, 0.2F, 0.6F}}, {0.15, {0.2F, 0.5F, 0.9F, 0.3F}}, {0.3, {0.3F, 0.9F, 0.3F, 0.5F}}};
+    const auto picture = agreeInside(tile, grid);
+    std::reverse(tile.isosurface.surfaces.begin(), tile.isosurface.surfaces.end());
+    EXPECT_EQ(painter.draw(tile).pixels, picture.pixels);
+}
+
+TEST_F(IsosurfaceCases, TheEyeMayBeInside) {
+    for (const auto geometry : {fields::Geometry::Isotropic, fields::Geometry::Sheared}) {
+        const auto grid = fields::gridOf(geometry, 36);
+        const std::string key = fields::nameOf(geometry);
+        add(fields::sphereDistance(0.7), grid, ScalarType::F32, key);
+        auto tile = isoTile(grid, key, 0.0);
+        tile.isosurface.surfaces.push_back({-0.3, {0.2F, 0.5F, 0.9F, 0.4F}});
+        tile.shading.enabled = true;
+        const auto eye = centreWorld(grid) + glm::dvec3(7.0, 5.0, 6.0);
+        tile.camera.viewFromWorld = glm::lookAt(eye, centreWorld(grid), glm::dvec3(0.0, 1.0, 0.0));
+        tile.camera.fovYDegrees = 90.0;
+        (void)agreeInside(tile, grid, 45.0, 3000);
+        // Inside of a removed ball: its wall is the first cut, and capped.
+        tile.isosurface.surfaces = {{-0.5, glm::vec4(0.9F, 0.6F, 0.3F, 1.0F)}};
+        tile.isosurface.caps = true;
+        ClipObject object;
+        object.dataset = clipShapeKey(ClipShape::Sphere);
+        object.mode = ClipMode::Clip;
+        object.objectFromWorld =
+            glm::affineInverse(glm::scale(glm::translate(glm::dmat4(1.0), eye), glm::dvec3(4.0)));
+        tile.clip.object = object;
+        (void)agreeInside(tile, grid, 45.0, 500);
+    }
+}
+
+TEST_F(IsosurfaceCases, NanHasNoSurface) {
+    const auto grid = fields::gridOf(fields::Geometry::Isotropic, 24);
+    auto constant = fields::linearRamp(glm::dvec3(0.0));
+    for (const bool ball : {false, true}) {
+        const std::string key = ball ? "half a ball" : "constant";
+        auto sampled =
+            fields::sampleField(ball ? fields::sphereDistance(0.7) : constant, grid, ScalarType::F32, key);
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        for (int z = 0; z < 24; ++z)
+            for (int y = 0; y < 24; ++y)
+                for (int x = 0; x < 12; ++x)
+                    std::memcpy(sampled.arrays[0].data() +
+                                    sizeof(float) * static_cast<std::size_t>((z * 24 + y) * 24 + x),
+                                &nan, sizeof nan);
+        add(std::move(sampled));
+        auto tile = isoTile(grid, key, ball ? 0.0 : 0.25);
+        tile.shading.enabled = true;
+        const auto picture = painter.draw(tile);
+        std::size_t shown = 0;
+        for (const auto& pixel : picture.pixels) {
+            EXPECT_TRUE(std::isfinite(pixel.x + pixel.y + pixel.z + pixel.w));
+            shown += pixel.w > 0.0 ? 1U : 0U;
+        }
+        if (ball)
+            // Silhouettes and the two columns of pixels at the edge of what has values are left out.
+            (void)agreeInside(tile, grid, 45.0, 300);
+        else
+            EXPECT_EQ(shown, 0U) << "there is no surface between a value and none";
     }
 }
 
