@@ -1,4 +1,5 @@
 #include "base/errors.h"
+#include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
 #include "cli/bench/stream_bench.h"
 #include "cli/commands.h"
@@ -55,18 +56,27 @@ Action addStream(CLI::App& app) {
 Action addVolume(CLI::App& app) {
     auto options = std::make_shared<bench::VolumeBenchOptions>();
     auto type = std::make_shared<std::string>("u8");
-    app.add_option("--samples", options->samples, "Samples per edge of the volume")
-        ->check(CLI::Range(16, 1024));
+    auto* samples = app.add_option("--samples", options->samples, "Samples per edge of the volume")
+                        ->check(CLI::Range(16, 1024));
+    app.add_option("--technique", options->techniques,
+                   "What looks inside, with and without light, at 128 and 256 samples: vr (volume), sr "
+                   "(surface), vc (clip "
+                   "object), ie (isosurface), all")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"vr", "sr", "vc", "ie", "all"}));
     app.add_option("--pixels", options->pixels, "Edge of the square picture")->check(CLI::Range(16, 4096));
     app.add_option("--frames", options->frames, "Frames per case, of which the median counts")
         ->check(CLI::Range(1, 10000));
     app.add_option("--type", *type, "Type of the samples")->check(CLI::IsMember({"u8", "u16", "f32"}));
     app.add_option("--device", options->device, "EGL device to draw on");
-    return withOutput(app, [options, type] {
+    return withOutput(app, [options, type, samples] {
         options->type = scalarFromName(*type).value();
-        return nlohmann::json::parse(bench::volumeBench(*options, [](const std::string& name) {
+        options->samplesGiven = samples->count() > 0;
+        const auto progress = [](const std::string& name) {
             std::fprintf(stderr, "bench volume: %s\n", name.c_str());
-        }));
+        };
+        return nlohmann::json::parse(options->techniques.empty() ? bench::volumeBench(*options, progress)
+                                                                 : bench::insideBench(*options, progress));
     });
 }
 

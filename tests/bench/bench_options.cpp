@@ -35,16 +35,19 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
     for (int i = 1; i < count; ++i) {
         const std::string argument = arguments[i];
         if (argument == "--help") {
-            std::printf("%s\n  --samples N  of the volume per axis (256)\n  --pixels N   of the square "
-                        "picture (512)\n"
-                        "  --frames N   per case (20)\n  --device N   EGL device\n  --type T     u8, u16 or "
-                        "f32 (u8)\n"
-                        "  --json       one JSON object on stdout (always so)\n",
-                        usage.c_str());
+            std::printf(
+                "%s\n  --samples N  of the volume per axis (256)\n  --pixels N   of the square "
+                "picture (512)\n"
+                "  --frames N   per case (20)\n  --device N   EGL device\n  --type T     u8, u16 or "
+                "f32 (u8)\n"
+                "  --technique T  vr, sr, vc, ie or all: what looks inside, with and without light, at 128 "
+                "and 256 samples\n"
+                "  --json       one JSON object on stdout (always so)\n",
+                usage.c_str());
             return std::nullopt;
         }
         if (argument == "--samples")
-            options.samples = numberAfter(count, arguments, i, 8, 1024);
+            options.samples = numberAfter(count, arguments, i, 8, 1024), options.samplesGiven = true;
         else if (argument == "--pixels")
             options.pixels = numberAfter(count, arguments, i, 8, 4096);
         else if (argument == "--frames")
@@ -53,6 +56,8 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             options.device = numberAfter(count, arguments, i, 0, 64);
         else if (argument == "--type")
             options.type = typeAfter(count, arguments, i);
+        else if (argument == "--technique" && i + 1 < count)
+            options.techniques.emplace_back(arguments[++i]);
         else if (argument != "--json")
             throw InvalidInput(argument, "there is no such option", "see --help");
     }

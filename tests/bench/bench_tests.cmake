@@ -3,6 +3,10 @@ add_test(NAME bench.volume COMMAND bench_volume --samples 32 --pixels 64 --frame
 set_tests_properties(bench.volume PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
     PASS_REGULAR_EXPRESSION "\"cases\":\\[{\"name\":.*\"ms\":.*\"psnr\":")
 
+add_test(NAME bench.inside COMMAND bench_volume --technique all --samples 32 --pixels 64 --frames 1 --json)
+set_tests_properties(bench.inside PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+    PASS_REGULAR_EXPRESSION "ie lit.*\"ms\":.*\"samples\":.*\"psnr\":")
+
 if(TARGET voxsheet_vtk_peer)
     add_executable(bench_vs_vtk bench/bench_vs_vtk_main.cpp bench/bench_options.cpp)
     target_link_libraries(bench_vs_vtk PRIVATE voxsheet_volume_bench voxsheet_vtk_peer)

@@ -21,6 +21,10 @@ struct VolumeBenchOptions {
     int frames = 20;   ///< per case; the median is reported
     int device = -1;   ///< as RenderOptions::device
     ScalarType type = ScalarType::U8;
+    /// Not empty: the bench of what looks inside (inside_bench.h) instead, of these out of vr, sr, vc, ie,
+    /// all.
+    std::vector<std::string> techniques;
+    bool samplesGiven = false; ///< else that bench takes 128 and 256 samples
 };
 
 struct VolumeBenchCase {

@@ -3,6 +3,7 @@
 #include "volume/parallel_for.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -176,12 +177,14 @@ glm::dvec4 pixelOf(const RayTruth& ray) {
     return light.pixel();
 }
 
+/// Of every n-th pixel of every n-th row: visit(column, row, ray).
 template <typename Visit>
-void overPixels(const TileSpec& tile, const Sources& sources, Visit visit) {
-    parallelFor(tile.sizePixels.y, 4, [&](long first, long last) {
+void overPixels(const TileSpec& tile, const Sources& sources, Visit visit, int every = 1) {
+    const auto size = (tile.sizePixels + every - 1) / every;
+    parallelFor(size.y, 4, [&](long first, long last) {
         for (int y = static_cast<int>(first); y < last; ++y)
-            for (int x = 0; x < tile.sizePixels.x; ++x)
-                visit(x, y, RayTruth(tile, sources, worldRay(tile, x + 0.5, y + 0.5)));
+            for (int x = 0; x < size.x; ++x)
+                visit(x, y, RayTruth(tile, sources, worldRay(tile, x * every + 0.5, y * every + 0.5)));
     });
 }
 
@@ -205,10 +208,29 @@ std::optional<FaceHit> faceHit(const RayTruth& ray) {
     return std::nullopt;
 }
 
-Picture insidePicture(const TileSpec& tile, const Sources& sources) {
-    Picture picture(tile.sizePixels);
-    overPixels(tile, sources, [&](int x, int y, const RayTruth& ray) { picture.at(x, y) = pixelOf(ray); });
+Picture insidePicture(const TileSpec& tile, const Sources& sources, int everyNthPixel) {
+    Picture picture((tile.sizePixels + everyNthPixel - 1) / everyNthPixel);
+    overPixels(
+        tile, sources, [&](int x, int y, const RayTruth& ray) { picture.at(x, y) = pixelOf(ray); },
+        everyNthPixel);
     return picture;
+}
+
+double keptVoxels(const TileSpec& tile, const Sources& sources) {
+    double sum = 0.0;
+    for (int y = 0; y < tile.sizePixels.y; ++y)
+        for (int x = 0; x < tile.sizePixels.x; ++x) {
+            const RayTruth ray(tile, sources, worldRay(tile, x + 0.5, y + 0.5));
+            sum += std::max(0.0, ray.range.end - ray.range.begin) * ray.voxelsPerDepth;
+        }
+    return sum;
+}
+
+long facePixels(const TileSpec& tile, const Sources& sources) {
+    std::atomic<long> count = 0;
+    overPixels(tile, sources,
+               [&](int, int, const RayTruth& ray) { count += faceHit(ray).has_value() ? 1 : 0; });
+    return count;
 }
 
 Picture insideConverged(TileSpec tile, const Sources& sources, double stepVoxels) {

@@ -66,7 +66,15 @@ struct FaceHit {
 [[nodiscard]] std::optional<FaceHit> faceHit(const RayTruth& ray);
 
 /// The picture, for every technique, samples where tile.technique puts them.
-[[nodiscard]] Picture insidePicture(const TileSpec& tile, const Sources& sources);
+/// \param everyNthPixel  of every n-th row: rays are slow
+[[nodiscard]] Picture insidePicture(const TileSpec& tile, const Sources& sources, int everyNthPixel = 1);
+
+/// Voxels of the drawn level that all rays pass within the kept range, in sum: divided by the distance of
+/// samples, their number before any is skipped. The clip object is not asked.
+[[nodiscard]] double keptVoxels(const TileSpec& tile, const Sources& sources);
+
+/// How many pixels show a face: faceHit() of each.
+[[nodiscard]] long facePixels(const TileSpec& tile, const Sources& sources);
 
 /// The same in steps of `stepVoxels`: converged as they go to 0 (not for IsosurfaceMethod::AlphaTest).
 [[nodiscard]] Picture insideConverged(TileSpec tile, const Sources& sources, double stepVoxels = 1.0 / 16.0);
