@@ -1,0 +1,111 @@
+#include "resolution/slope_rule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxsheet {
+
+namespace {
+
+constexpr double kSureDifference = 5.0;
+constexpr double kSureWithoutOne = 3.0;
+constexpr int kFramesOfALonePoint = 12;
+constexpr std::size_t kNewestSteps = 4;
+
+struct Candidate {
+    std::size_t bend = 0; ///< index of the last point before the bend
+    SlopeRatio ratio;
+};
+
+std::optional<Candidate> surestBend(std::span<const TimePoint> segment) {
+    std::optional<Candidate> surest;
+    for (std::size_t bend = 1; bend + 1 < segment.size(); ++bend) {
+        const auto ratio = slopeRatio(fitBentLine(segment, segment[bend].n));
+        if (!surest || std::abs(ratio.significance) > std::abs(surest->ratio.significance))
+            surest = Candidate{bend, ratio};
+    }
+    if (surest && std::abs(surest->ratio.significance) <= kSureDifference) surest.reset();
+    return surest;
+}
+
+/// Whether a bend stays one, and above the limit if it has to be, with any one point beyond it left out.
+bool holdsWithoutAnyOne(std::span<const TimePoint> segment, const Candidate& candidate,
+                        std::optional<double> ratioLimit) {
+    const std::size_t first = candidate.bend + 1;
+    if (first + 1 == segment.size()) return segment.back().ms.count >= kFramesOfALonePoint;
+    for (std::size_t left = first; left < segment.size(); ++left) {
+        std::vector<TimePoint> others(segment.begin(), segment.end());
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(left));
+        const auto ratio = slopeRatio(fitBentLine(others, segment[candidate.bend].n));
+        if (std::abs(ratio.significance) <= kSureWithoutOne) return false;
+        if (std::signbit(ratio.significance) != std::signbit(candidate.ratio.significance)) return false;
+        if (ratioLimit && ratio.value <= *ratioLimit) return false;
+    }
+    return true;
+}
+
+/// A last segment that is straight in itself, but steeper than the first.
+std::optional<SlopeBend> creptUp(std::span<const TimePoint> first, std::span<const TimePoint> last,
+                                 double ratioLimit) {
+    if (first.size() < 2 || last.size() < kNewestSteps) return std::nullopt;
+    const auto ratio = slopeRatio(fitStraightLine(first), fitStraightLine(last));
+    if (ratio.low <= ratioLimit || ratio.significance <= kSureDifference) return std::nullopt;
+    return SlopeBend{last.front().n, last.back().n, ratio, true};
+}
+
+} // namespace
+
+std::optional<SlopeBend> newestBend(std::span<const TimePoint> segment, double ratioLimit) {
+    if (segment.size() < 3) return std::nullopt;
+    const auto surest = surestBend(segment);
+    if (!surest) return std::nullopt;
+    const bool breaks = surest->ratio.low > ratioLimit;
+    if (!breaks && surest->ratio.high >= ratioLimit) return std::nullopt;
+    if (!holdsWithoutAnyOne(segment, *surest, breaks ? std::optional(ratioLimit) : std::nullopt))
+        return std::nullopt;
+    return SlopeBend{segment[surest->bend].n, segment.back().n, surest->ratio, breaks};
+}
+
+std::optional<SlopeRatio> newestSlopeRatio(std::span<const TimePoint> segment) {
+    if (segment.size() < 4) return std::nullopt;
+    const std::size_t steps = std::min(kNewestSteps, segment.size() - 2);
+    return slopeRatio(fitBentLine(segment, segment[segment.size() - 1 - steps].n));
+}
+
+std::span<const TimePoint> segmentFrom(std::span<const TimePoint> curve, int firstN) {
+    const auto first = std::find_if(curve.begin(), curve.end(),
+                                    [firstN](const TimePoint& point) { return point.n >= firstN; });
+    return curve.subspan(static_cast<std::size_t>(first - curve.begin()));
+}
+
+std::optional<SlopeBend> SlopeWatch::judge(std::span<const TimePoint> curve, double ratioLimit) {
+    if (curve.empty() || curve.back().n <= segmentFirstN_) *this = {};
+    const auto segment = segmentFrom(curve, segmentFirstN_);
+    auto bend = newestBend(segment, ratioLimit);
+    if (!bend && firstBendN_ > 0) {
+        const auto first = curve.first(curve.size() - segmentFrom(curve, firstBendN_ + 1).size());
+        bend = creptUp(first, segment, ratioLimit);
+    }
+    if (!bend || bend->breaksRule) return bend;
+    segmentFirstN_ = bend->lastN;
+    if (firstBendN_ == 0) firstBendN_ = bend->lastN;
+    return bend;
+}
+
+std::vector<SlopeBend> findBends(std::span<const TimePoint> curve, double ratioLimit) {
+    std::vector<SlopeBend> bends;
+    auto rest = curve;
+    SlopeWatch watch;
+    for (std::size_t count = 3; count <= rest.size(); ++count) {
+        const auto found = watch.judge(rest.first(count), ratioLimit);
+        if (!found) continue;
+        bends.push_back(*found);
+        if (!found->breaksRule) continue;
+        rest = segmentFrom(rest, found->lastN);
+        watch = {};
+        count = 2;
+    }
+    return bends;
+}
+
+} // namespace voxsheet
