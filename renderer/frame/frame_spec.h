@@ -19,6 +19,9 @@ enum class PixelFormat {
 struct FrameSpec {
     std::vector<TileSpec> tiles;
     PixelFormat format = PixelFormat::Rgba8;
+    /// Each tile is copied back before the next is begun, so that TilePixels::timestampMs and hostMs can be
+    /// compared (TimerCheck). Slower: no tile is drawn while another is copied.
+    bool checkTimers = false;
 };
 
 struct TilePixels {
@@ -26,10 +29,14 @@ struct TilePixels {
     std::vector<unsigned char> rgba8; ///< Rgba8: size.x * size.y * 4, top row first
     std::vector<float> rgba32f;       ///< Rgba32F: size.x * size.y * 4, top row first
     int level = 0;
-    double renderMs = 0.0; ///< GPU time of the draw, from timestamps; upload and readback not included
-    double uploadMs = 0.0; ///< host time of conversion and upload; 0 when the volume was resident
-    double readMs = 0.0;   ///< host time of reading the volume from the provider; 0 when it was resident
-    std::string error;     ///< not empty: this tile failed, there are no pixels; the other tiles are whole
+    /// GPU time of drawing and resolving, from timestamps; upload and readback not included. The host's time
+    /// where the timestamps are impossible.
+    double renderMs = 0.0;
+    double timestampMs = 0.0; ///< the same as the driver gave it
+    double hostMs = 0.0;      ///< by the host's clock, until the pixels were in host memory
+    double uploadMs = 0.0;    ///< host time of conversion and upload; 0 when the volume was resident
+    double readMs = 0.0;      ///< host time of reading the volume from the provider; 0 when it was resident
+    std::string error;        ///< not empty: this tile failed, there are no pixels; the other tiles are whole
     ErrorKind errorKind = ErrorKind::Internal; ///< of `error`, when that is not empty
 };
 

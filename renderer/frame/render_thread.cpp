@@ -138,7 +138,12 @@ private:
             return;
         }
         if (!renderer_) restartRenderer(job);
+        const bool alone = job->frame.checkTimers;
+        while (alone && !inFlight_.empty())
+            finishOldest();
         if (job->issuedCount < job->frame.tiles.size()) beginTile(job, nextTile(*job));
+        while (alone && !inFlight_.empty())
+            finishOldest();
         if (job->issuedCount == job->frame.tiles.size()) {
             queue_.remove(job);
             job->succeedIfFinished();

@@ -79,8 +79,8 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, PixelFor
     slot->begun = Clock::now();
     slot->timer.begin();
     techniques_.draw(tile, volumes, target);
-    slot->timer.end();
     resolver_.resolve(target, tile.background, format, slot->packed);
+    slot->timer.end();
     slot->readback.start(slot->packed, bytes);
     context_.checkErrors("drawing a tile");
     return slot;
@@ -89,7 +89,9 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, PixelFor
 TilePixels TileRenderer::finish(std::unique_ptr<TileInFlight> tile) {
     const std::span<const std::byte> bytes = tile->readback.finish();
     TilePixels pixels = std::move(tile->pixels);
-    pixels.renderMs = plausibleRenderMs(tile->timer.milliseconds(), millisecondsSince(tile->begun));
+    pixels.hostMs = millisecondsSince(tile->begun);
+    pixels.timestampMs = tile->timer.milliseconds();
+    pixels.renderMs = plausibleRenderMs(pixels.timestampMs, pixels.hostMs);
     const std::size_t values =
         static_cast<std::size_t>(pixels.size.x) * static_cast<std::size_t>(pixels.size.y) * 4;
     if (tile->format == PixelFormat::Rgba8) {

@@ -1,6 +1,7 @@
 #include "frame/render_thread.h"
 
 #include "base/errors.h"
+#include "frame/timer_check.h"
 #include "gl_fixture.h"
 
 #include <algorithm>
@@ -52,6 +53,23 @@ protected:
     }
     std::shared_ptr<MemoryVolumeProvider> provider_ = std::make_shared<MemoryVolumeProvider>();
 };
+
+TEST_F(RenderThreadTest, TimestampsAgreeWithTheHostsClock) {
+    RenderThread thread(provider_, {});
+    for (const Technique technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
+        auto big = tile("ball", technique);
+        big.sizePixels = glm::ivec2(512);
+        FrameSpec frame = frameOf({big, big, big, big});
+        frame.checkTimers = true;
+        (void)draw(thread, frame); // compiles
+        TimerCheck check;
+        for (int repeat = 0; repeat < 3; ++repeat)
+            check.add(draw(thread, frame));
+        EXPECT_EQ(check.tiles(), 12);
+        EXPECT_TRUE(check.agrees()) << check.gpuMs() << " ms by timestamps, " << check.hostMs()
+                                    << " ms by the host";
+    }
+}
 
 TEST_F(RenderThreadTest, DrawsAVolumeByEveryTechnique) {
     RenderThread thread(provider_, {});
