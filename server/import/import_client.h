@@ -25,9 +25,13 @@ struct ImporterSettings {
     std::uint64_t maxVoxelBytes = 64ULL << 30; ///< of level 0 of one dataset, all fields and steps
     double headerCpuSeconds =
         1.5; ///< processor time until the header is understood, plus 1 s per 100 MB of file
-    double headerWallSeconds = 10.0; ///< the same by the clock: a file system may stall
-    double stallSeconds = 120.0;     ///< longest time without progress while voxels are read
-    double totalSeconds = 3600.0;    ///< of one import
+    double headerWallSeconds = 10.0; ///< the same by the clock: a disk may take seconds to answer
+    double blockedHeaderSeconds =
+        1.5; ///< longest time asleep in the header with nothing done and no disk to wait for
+    double blockedDataSeconds =
+        10.0; ///< the same while voxels are read: the source is good, a remote folder may pause
+    double stallSeconds = 120.0;  ///< longest time without progress while voxels are read
+    double totalSeconds = 3600.0; ///< of one import
 };
 
 struct ImportRequest {

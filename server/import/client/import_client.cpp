@@ -1,6 +1,7 @@
 #include "import/import_client.h"
 
 #include "base/log.h"
+#include "import/client/blocked_watch.h"
 #include "import/client/child_process.h"
 #include "import/client/import_options_json.h"
 #include "import/client/import_protocol.h"
@@ -65,6 +66,7 @@ public:
         for (;;) {
             if (const auto line = child_.takeLine()) {
                 lastMessage_ = Clock::now();
+                blocked_ = {};
                 return decodeMessage(*line);
             }
             if (cancelled_ && cancelled_()) throw Cancelled(file, "the import was cancelled");
@@ -94,14 +96,19 @@ public:
     }
 
 private:
-    void checkLimits(const std::string& file) const {
+    void checkLimits(const std::string& file) {
         const char* const advice = "the file is probably damaged, or the disk does not answer";
-        if (inHeader_ && child_.cpuSeconds() - cpuAtStart_ > headerCpuSeconds_)
+        const double cpuSeconds = child_.cpuSeconds();
+        blocked_.observe(Clock::now(), cpuSeconds, restOf(child_.id()));
+        const bool blocked = blocked_.secondsAsleep() >
+                             (inHeader_ ? settings_.blockedHeaderSeconds : settings_.blockedDataSeconds);
+        if (inHeader_ && cpuSeconds - cpuAtStart_ > headerCpuSeconds_)
             throw LimitExceeded(file, "its header could not be understood in time",
                                 "the file is probably damaged");
-        if (inHeader_ && secondsSince(phaseStart_) > settings_.headerWallSeconds + headerCpuSeconds_)
+        if (inHeader_ &&
+            (blocked || secondsSince(phaseStart_) > settings_.headerWallSeconds + headerCpuSeconds_))
             throw LimitExceeded(file, "the reader hangs in the file's header", advice);
-        if (!inHeader_ && secondsSince(lastMessage_) > settings_.stallSeconds)
+        if (!inHeader_ && (blocked || secondsSince(lastMessage_) > settings_.stallSeconds))
             throw LimitExceeded(file, "the reader makes no progress any more", advice);
         if (secondsSince(start_) > settings_.totalSeconds)
             throw LimitExceeded(file, "the import took longer than an import may take", advice);
@@ -115,6 +122,7 @@ private:
     Clock::time_point lastMessage_ = start_;
     double headerCpuSeconds_ = 0.0;
     double cpuAtStart_ = 0.0;
+    BlockedWatch blocked_;
     bool inHeader_ = true;
 };
 

@@ -1,5 +1,6 @@
 // Children that misbehave in the importer's place: the server sees one failed import and one sentence.
 #include "import/child/process_limits.h"
+#include "import/client/blocked_watch.h"
 #include "import/client/child_process.h"
 #include "import/client/import_protocol.h"
 #include "process_fixture.h"
@@ -7,6 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <new>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -66,13 +68,77 @@ TEST_F(ProcessHostile, AnEndlessLineIsCut) {
     failure(smallVolume(), ErrorKind::LimitExceeded, 20.0);
 }
 
-TEST_F(ProcessHostile, HangsInTheHeader) {
-    settings_.headerWallSeconds = 0.2;
-    settings_.headerCpuSeconds = 0.3;
+TEST_F(ProcessHostile, ABlockedReaderEndsWithinTwoSeconds) {
     replaceImporter("exec sleep 60");
     EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "hangs"));
     replaceImporter("kill -STOP $$");
     EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "hangs"));
+    const auto fifo = folder_ / "fifo";
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    replaceImporter("exec cat '" + fifo.string() + "'"); // waits for a writer
+    EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "hangs"));
+}
+
+TEST_F(ProcessHostile, AReaderBlockedAmongTheVoxelsEndsAfterALongerTime) {
+    settings_.blockedHeaderSeconds = 0.1; // holds no longer
+    settings_.blockedDataSeconds = 0.6;
+    replaceImporter("cat <<'END'\n" + std::string(kGoodHeader) + "\nEND\nexec sleep 60");
+    EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "no progress"));
+}
+
+TEST_F(ProcessHostile, AReaderThatOnlyRestsBetweenStepsIsLeftAlone) {
+    // Two thirds of the time that counts as blocked, four times; a sleeper in its place would be ended.
+    settings_.blockedHeaderSeconds = 0.6;
+    replaceImporter("for step in 1 2 3 4; do sleep 0.4; done; exit 3");
+    EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::Internal, 20.0), "exit code 3"));
+}
+
+TEST_F(ProcessHostile, NoAnswerFromTheDiskEndsByTheClock) {
+    settings_.blockedHeaderSeconds = 60.0;
+    settings_.headerWallSeconds = 0.2;
+    settings_.headerCpuSeconds = 0.3;
+    replaceImporter("exec sleep 60");
+    EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "hangs"));
+}
+
+TEST(BlockedWatch, OnlySleepWithNothingDoneCounts) {
+    using Clock = BlockedWatch::Clock;
+    const auto at = [](int ms) { return Clock::time_point{} + std::chrono::milliseconds(ms); };
+    BlockedWatch watch;
+    watch.observe(at(0), 0.1, ProcessRest::Asleep);
+    watch.observe(at(50), 0.1, ProcessRest::Asleep);
+    watch.observe(at(150), 0.1, ProcessRest::Asleep);
+    EXPECT_DOUBLE_EQ(watch.secondsAsleep(), 0.15);
+    watch.observe(at(5000), 0.1 + 1e-6, ProcessRest::Asleep); // it did something, and sleeps again
+    EXPECT_EQ(watch.secondsAsleep(), 0.0);
+    watch.observe(at(6000), 0.1 + 1e-6, ProcessRest::Active); // starved: it wants to run
+    watch.observe(at(9000), 0.1 + 1e-6, ProcessRest::Active);
+    watch.observe(at(12000), 0.1 + 1e-6, ProcessRest::OnDisk);
+    watch.observe(at(15000), 0.1 + 1e-6, ProcessRest::OnDisk);
+    watch.observe(at(18000), 0.1 + 1e-6, ProcessRest::Asleep);
+    EXPECT_EQ(watch.secondsAsleep(), 0.0);
+    watch.observe(at(18100), 0.1 + 1e-6, ProcessRest::Asleep);
+    EXPECT_DOUBLE_EQ(watch.secondsAsleep(), 0.1);
+    watch.observe(at(60000), 0.1 + 1e-6, ProcessRest::Asleep); // nobody looked for a minute
+    EXPECT_DOUBLE_EQ(watch.secondsAsleep(), 0.35);
+}
+
+TEST(BlockedWatch, SeesWhatThreadsDo) {
+    EXPECT_EQ(restOf(::getpid()), ProcessRest::Active); // this very thread runs
+    EXPECT_EQ(restOf(1 << 22), ProcessRest::Active);    // no such process: not known
+    const auto child = ::fork();
+    if (child == 0) {
+        ::pause();
+        ::_exit(0);
+    }
+    auto rest = ProcessRest::Active;
+    for (int i = 0; i < 500 && rest != ProcessRest::Asleep; ++i) {
+        rest = restOf(child);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(rest, ProcessRest::Asleep);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
 }
 
 TEST_F(ProcessHostile, SpinsInTheHeader) {
@@ -83,6 +149,7 @@ TEST_F(ProcessHostile, SpinsInTheHeader) {
 }
 
 TEST_F(ProcessHostile, StallsWhileReading) {
+    settings_.blockedDataSeconds = 60.0;
     settings_.stallSeconds = 0.3;
     replaceImporter("cat <<'END'\n" + std::string(kGoodHeader) + "\nEND\nexec sleep 60");
     EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::LimitExceeded), "no progress"));
