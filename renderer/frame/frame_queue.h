@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame/render_thread.h"
+#include "techniques/tile_volumes.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -21,7 +22,8 @@ struct FrameJob {
     std::promise<FrameResult> promise;
 
     FrameResult result;
-    std::vector<bool> issued; ///< per tile: drawing has been queued
+    std::vector<bool> issued;                      ///< per tile: drawing has been queued
+    std::vector<std::optional<TileLevels>> levels; ///< per tile, once it has been looked at
     std::size_t issuedCount = 0;
     std::size_t finishedCount = 0; ///< tiles with pixels or an error
     bool settled = false;          ///< the promise has its value or exception

@@ -16,9 +16,17 @@ enum class PixelFormat {
     Rgba32F ///< display sRGB values as floats, premultiplied
 };
 
+/// From which level of detail a tile may be drawn, when the one that it asks for is not resident.
+enum class LevelChoice {
+    Exact,        ///< the one asked for: the tile waits for it, and fails when the budget cannot hold it
+    WithinBudget, ///< likewise, but the finest level that the texture budget can hold
+    AtHand ///< the nearest one that is resident (a small one is brought in when none is): nothing waits
+};
+
 struct FrameSpec {
     std::vector<TileSpec> tiles;
     PixelFormat format = PixelFormat::Rgba8;
+    LevelChoice levels = LevelChoice::Exact;
     /// Each tile is copied back before the next is begun, so that TilePixels::timestampMs and hostMs can be
     /// compared (TimerCheck). Slower: no tile is drawn while another is copied.
     bool checkTimers = false;
@@ -28,14 +36,17 @@ struct TilePixels {
     glm::ivec2 size{0};
     std::vector<unsigned char> rgba8; ///< Rgba8: size.x * size.y * 4, top row first
     std::vector<float> rgba32f;       ///< Rgba32F: size.x * size.y * 4, top row first
-    int level = 0;
+    int level = 0;        ///< that was drawn
+    bool standIn = false; ///< AtHand: something was drawn from another level, or without a gradient texture
+    bool awaited = false; ///< what the stand-in stands for is being brought in: ask again
+    std::string note;     ///< not empty: why a coarser level than asked for is as good as it gets
     /// GPU time of drawing and resolving, from timestamps; upload and readback not included. The host's time
     /// where the timestamps are impossible.
     double renderMs = 0.0;
     double timestampMs = 0.0; ///< the same as the driver gave it
     double hostMs = 0.0;      ///< by the host's clock, until the pixels were in host memory
-    double uploadMs = 0.0;    ///< host time of conversion and upload; 0 when the volume was resident
-    double readMs = 0.0;      ///< host time of reading the volume from the provider; 0 when it was resident
+    double uploadMs = 0.0;    ///< host time of conversion, upload and gradients; 0 when all was resident
+    double readMs = 0.0;      ///< host time of reading from the provider; 0 when all was resident
     std::string error;        ///< not empty: this tile failed, there are no pixels; the other tiles are whole
     ErrorKind errorKind = ErrorKind::Internal; ///< of `error`, when that is not empty
 };

@@ -16,13 +16,16 @@ namespace {
 /// Tiles drawn but not copied back: one is mapped while the next is drawn.
 constexpr std::size_t kTilesInFlight = 1;
 
+/// Bringing textures in stops after about this time to see what else is to be done.
+constexpr auto kSlice = std::chrono::milliseconds(4);
+
+Deadline sliceEnd() { return std::chrono::steady_clock::now() + kSlice; }
+
 /// The device is gone, and with it every texture and program.
 struct DeviceLost {
     std::exception_ptr error;
     std::shared_ptr<FrameJob> job; ///< the frame during which it was noticed
 };
-
-VolumeKey volumeOf(const TileSpec& tile) { return {tile.dataset, tile.field, tile.step, tile.level}; }
 
 } // namespace
 
@@ -60,6 +63,7 @@ public:
         auto job = std::make_shared<FrameJob>();
         job->result.tiles.resize(frame.tiles.size());
         job->issued.resize(frame.tiles.size());
+        job->levels.resize(frame.tiles.size());
         job->frame = std::move(frame);
         job->priority = priority;
         job->cancelled = std::move(cancelled);
@@ -72,6 +76,15 @@ public:
         queue_.pushCommand([this, dataset = std::move(dataset)] {
             if (!renderer_) return; // lost: nothing is resident
             renderer_->residency().forget(dataset);
+            publishState();
+        });
+    }
+
+    void setWanted(std::vector<WantedVolume> wanted) {
+        queue_.pushCommand([this, wanted = std::move(wanted)]() mutable {
+            wanted_ = std::move(wanted);
+            if (!renderer_) return;
+            renderer_->residency().setWanted(wanted_);
             publishState();
         });
     }
@@ -102,7 +115,8 @@ private:
 
     /// Returns false when the thread is to end.
     bool workOnce() {
-        const FrameQueue::Work work = queue_.next(inFlight_.empty());
+        const bool idle = inFlight_.empty() && (!renderer_ || renderer_->residency().isIdle());
+        const FrameQueue::Work work = queue_.next(idle);
         for (const auto& command : work.commands)
             command();
         try {
@@ -112,6 +126,9 @@ private:
                     finishOldest();
             } else if (!inFlight_.empty()) {
                 finishOldest();
+            } else if (renderer_ && !work.stopping) {
+                renderer_->residency().advance(sliceEnd());
+                publishState();
             }
         } catch (const DeviceLost& lost) {
             giveUpDevice(lost);
@@ -121,6 +138,7 @@ private:
 
     void startRenderer() {
         renderer_ = std::make_unique<TileRenderer>(volumes_, options_.device, options_.textureBudgetBytes);
+        renderer_->residency().setWanted(wanted_);
         publishState();
     }
 
@@ -161,25 +179,70 @@ private:
 
     /// Tiles whose volume is resident come first: with a working set larger than the budget,
     /// least-recently-used eviction in a fixed order would throw out every volume just before it is needed.
-    [[nodiscard]] std::size_t nextTile(const FrameJob& job) const {
+    [[nodiscard]] std::size_t nextTile(FrameJob& job) const {
         std::size_t first = job.issued.size();
         for (std::size_t tile = 0; tile < job.issued.size(); ++tile) {
             if (job.issued[tile]) continue;
-            if (renderer_->residency().isResident(volumeOf(job.frame.tiles[tile]))) return tile;
+            if (job.frame.levels == LevelChoice::AtHand || isReady(job, tile)) return tile;
             if (first == job.issued.size()) first = tile;
         }
         return first;
     }
 
-    void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
-        job->issued[tile] = true;
-        ++job->issuedCount;
+    [[nodiscard]] bool isReady(FrameJob& job, std::size_t tile) const {
         try {
-            inFlight_.push_back({job, tile, renderer_->begin(job->frame.tiles[tile], job->frame.format)});
+            return renderer_->isResident(job.frame.tiles[tile], levelsOf(job, tile));
+        } catch (const Error&) {
+            return true; // to be failed
+        }
+    }
+
+    [[nodiscard]] const TileLevels& levelsOf(FrameJob& job, std::size_t tile) const {
+        auto& levels = job.levels[tile];
+        if (!levels) levels = renderer_->levelsFor(job.frame.tiles[tile], job.frame.levels);
+        return *levels;
+    }
+
+    /// Draws the tile, or brings in some of what it needs.
+    void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
+        try {
+            auto drawing =
+                renderer_->begin(job->frame.tiles[tile], job->frame, levelsOf(*job, tile), sliceEnd());
+            if (!drawing) {
+                waiting_ = {job, tile};
+                publishState();
+                if (!inFlight_.empty()) finishOldest();
+                return;
+            }
+            markIssued(*job, tile);
+            inFlight_.push_back({job, tile, std::move(drawing)});
+        } catch (const DeviceLost&) {
+            throw;
         } catch (...) {
+            markIssued(*job, tile);
             failTile(job, tile);
         }
+        if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween();
         publishState();
+    }
+
+    static void markIssued(FrameJob& job, std::size_t tile) {
+        job.issued[tile] = true;
+        ++job.issuedCount;
+    }
+
+    /// Between two tiles that wait for nothing: what another frame waits for, else the background's queue.
+    void bringInBetween() {
+        const auto job = waiting_.job.lock();
+        if (!job || job->settled || job->issued[waiting_.tile]) {
+            renderer_->residency().advance(sliceEnd());
+            return;
+        }
+        try {
+            renderer_->bringIn(job->frame.tiles[waiting_.tile], levelsOf(*job, waiting_.tile), sliceEnd());
+        } catch (const std::exception&) {
+            waiting_ = {}; // The tile itself meets the same error, and keeps it.
+        }
     }
 
     void finishOldest() {
@@ -261,6 +324,12 @@ private:
 
     // Of the render thread alone.
     std::unique_ptr<TileRenderer> renderer_; ///< null after the device was lost
+    std::vector<WantedVolume> wanted_;
+    struct Waiting {
+        std::weak_ptr<FrameJob> job;
+        std::size_t tile = 0;
+    };
+    Waiting waiting_; ///< the tile whose volumes were being brought in last
     std::deque<InFlight> inFlight_;
 
     std::thread thread_;
@@ -279,6 +348,10 @@ std::future<FrameResult> RenderThread::submit(FrameSpec frame, FramePriority pri
 }
 
 ResidencyState RenderThread::residency() const { return implementation_->residency(); }
+
+void RenderThread::setWanted(std::vector<WantedVolume> wanted) {
+    implementation_->setWanted(std::move(wanted));
+}
 
 void RenderThread::forget(const std::string& dataset) { implementation_->forget(dataset); }
 

@@ -4,6 +4,7 @@
 #include "frame/frame_spec.h"
 #include "gpu/render_device.h"
 #include "residency/residency_state.h"
+#include "residency/wanted_volume.h"
 #include "volume/volume_provider.h"
 
 #include <cstdint>
@@ -22,9 +23,10 @@ struct RenderOptions {
 
 enum class FramePriority { Interactive, Final, Export };
 
-/// Thread-safe. Frames of higher priority are drawn first, those of one priority in order of submission. A
-/// frame that fails as a whole (device lost) throws GpuError from its future; a tile that fails sets
-/// TilePixels::error. A frame of higher priority goes in between two tiles of a lower one. Frames still
+/// Thread-safe. Textures are brought in some milliseconds at a time, so that a frame of higher priority never
+/// waits for a whole one. Frames of higher priority are drawn first, those of one priority in order of
+/// submission. A frame that fails as a whole (device lost) throws GpuError from its future; a tile that fails
+/// sets TilePixels::error. A frame of higher priority goes in between two tiles of a lower one. Frames still
 /// waiting at destruction throw Cancelled.
 class RenderThread {
 public:
@@ -35,10 +37,14 @@ public:
     RenderThread& operator=(const RenderThread&) = delete;
 
     [[nodiscard]] const RenderDevice& device() const;
-    /// `cancelled` is asked before each tile; when true, the future throws Cancelled.
+    /// `cancelled` is asked before each tile and while its volumes are brought in; when true, the future
+    /// throws Cancelled.
     [[nodiscard]] std::future<FrameResult> submit(FrameSpec frame, FramePriority priority,
                                                   std::function<bool()> cancelled = {});
-    /// As of the last tile that was drawn or dataset that was forgotten.
+    /// Replaces what is looked at and what soon will be: evicted last, and brought in between the tiles of
+    /// frames with LevelChoice::AtHand and while nothing is drawn. Returns at once.
+    void setWanted(std::vector<WantedVolume> wanted);
+    /// As of the last tile that was drawn, upload or dataset that was forgotten.
     [[nodiscard]] ResidencyState residency() const;
     /// Drops every texture of a dataset (it was removed or replaced). Returns at once; takes effect before
     /// the next tile.

@@ -30,6 +30,17 @@ double millisecondsSince(Clock::time_point begun) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
 }
 
+std::string budgetNote(const TileSpec& tile, const TileLevels& levels, std::uint64_t budgetBytes) {
+    const TileLevels asked = askedLevels(tile);
+    if (levels == asked) return {};
+    const std::string what = levels.volume != asked.volume
+                                 ? "drawn at level " + std::to_string(levels.volume) + " instead of " +
+                                       std::to_string(asked.volume)
+                                 : std::string("a clip object or colouring volume is drawn coarser");
+    return what + ": the texture budget of " + std::to_string(budgetBytes) +
+           " bytes does not hold more; raise --texture-budget";
+}
+
 RenderDevice withBudget(RenderDevice device, std::uint64_t budgetBytes) {
     if (budgetBytes > 0) device.textureBudgetBytes = budgetBytes;
     return device;
@@ -61,25 +72,49 @@ std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
                                                        {}});
 }
 
-std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, PixelFormat format) {
+TileLevels TileRenderer::levelsFor(const TileSpec& tile, LevelChoice choice) const {
+    return choice == LevelChoice::Exact ? askedLevels(tile) : levelsWithinBudget(residency_, tile);
+}
+
+bool TileRenderer::isResident(const TileSpec& tile, const TileLevels& levels) const {
+    return isTileResident(residency_, tile, levels);
+}
+
+void TileRenderer::bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline) {
+    static_cast<void>(techniques_.acquireBy(residency_, tile, levels, deadline));
+}
+
+std::optional<TileVolumes> TileRenderer::acquire(const TileSpec& tile, LevelChoice choice,
+                                                 const TileLevels& levels, Deadline deadline) {
+    if (choice == LevelChoice::AtHand) return techniques_.acquireAtHand(residency_, tile, levels);
+    return techniques_.acquireBy(residency_, tile, levels, deadline);
+}
+
+std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, const FrameSpec& frame,
+                                                  const TileLevels& levels, Deadline deadline) {
     checkSize(tile.sizePixels);
     const std::size_t bytes = static_cast<std::size_t>(tile.sizePixels.x) *
-                              static_cast<std::size_t>(tile.sizePixels.y) * pixelBytes(format);
-    const TileVolumes volumes = techniques_.acquire(residency_, tile);
+                              static_cast<std::size_t>(tile.sizePixels.y) * pixelBytes(frame.format);
+    const auto acquired = acquire(tile, frame.levels, levels, deadline);
+    if (!acquired) return nullptr;
+    const TileVolumes& volumes = *acquired;
     const gpu::Texture& target = targets_.acquire(tile.sizePixels);
 
     auto slot = takeSlot(bytes);
     slot->pixels = {};
     slot->pixels.size = tile.sizePixels;
-    slot->pixels.level = tile.level;
+    slot->pixels.level = volumes.volume.volume().level;
+    slot->pixels.standIn = volumes.standIn;
+    slot->pixels.awaited = volumes.awaited;
+    slot->pixels.note = budgetNote(tile, levels, residency_.budgetBytes());
     slot->pixels.uploadMs = volumes.uploadMs();
     slot->pixels.readMs = volumes.readMs();
-    slot->format = format;
+    slot->format = frame.format;
     slot->bytes = bytes;
     slot->begun = Clock::now();
     slot->timer.begin();
     techniques_.draw(tile, volumes, target);
-    resolver_.resolve(target, tile.background, format, slot->packed);
+    resolver_.resolve(target, tile.background, frame.format, slot->packed);
     slot->timer.end();
     slot->readback.start(slot->packed, bytes);
     context_.checkErrors("drawing a tile");

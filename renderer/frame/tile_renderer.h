@@ -10,6 +10,7 @@
 #include "gpu/timer_query.h"
 #include "residency/residency_manager.h"
 #include "techniques/technique_set.h"
+#include "techniques/tile_acquisition.h"
 
 #include <chrono>
 #include <memory>
@@ -37,15 +38,23 @@ public:
     [[nodiscard]] const RenderDevice& device() const { return device_; }
     [[nodiscard]] ResidencyManager& residency() { return residency_; }
 
-    /// Makes the volume resident and queues drawing, resolving and readback. Throws what the tile is at fault
-    /// for.
-    [[nodiscard]] std::unique_ptr<TileInFlight> begin(const TileSpec& tile, PixelFormat format);
+    /// The levels to draw from. Throws as levelsWithinBudget.
+    [[nodiscard]] TileLevels levelsFor(const TileSpec& tile, LevelChoice choice) const;
+    [[nodiscard]] bool isResident(const TileSpec& tile, const TileLevels& levels) const;
+    /// Works until the deadline on what the tile needs; the tile itself is not drawn. Throws as begin.
+    void bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline);
+    /// Makes the volumes resident and queues drawing, resolving and readback. Null when the deadline came
+    /// first: to be called again. Throws what the tile is at fault for.
+    [[nodiscard]] std::unique_ptr<TileInFlight> begin(const TileSpec& tile, const FrameSpec& frame,
+                                                      const TileLevels& levels, Deadline deadline);
     /// Waits for the pixels. Throws GpuError.
     [[nodiscard]] TilePixels finish(std::unique_ptr<TileInFlight> tile);
     /// Throws GpuError when the GPU was reset.
     void checkReset() const { context_.checkReset(); }
 
 private:
+    [[nodiscard]] std::optional<TileVolumes> acquire(const TileSpec& tile, LevelChoice choice,
+                                                     const TileLevels& levels, Deadline deadline);
     [[nodiscard]] std::unique_ptr<TileInFlight> takeSlot(std::size_t bytes);
     [[nodiscard]] double plausibleRenderMs(double gpuMs, double wallMs);
 

@@ -1,23 +1,23 @@
 #include "residency/residency_manager.h"
 
 #include "base/errors.h"
+#include "base/log.h"
 #include "gpu/context.h"
-#include "residency/volume_upload.h"
+#include "residency/pending_texture.h"
+#include "residency/texture_table.h"
 
 #include <algorithm>
-#include <optional>
+#include <cstdlib>
+#include <set>
 #include <utility>
 
 namespace voxsheet {
 
-struct VolumeLease::Entry {
-    std::optional<gpu::Texture> texture;
-    ResidentVolume volume;
-    std::uint64_t lastUse = 0;
-    int leases = 0;
-};
-
-VolumeLease::VolumeLease(std::shared_ptr<Entry> entry) : entry_(std::move(entry)) { ++entry_->leases; }
+VolumeLease::VolumeLease(std::shared_ptr<TextureEntry> entry)
+    : uploadMs(std::exchange(entry->uploadMs, 0.0)), readMs(std::exchange(entry->readMs, 0.0)),
+      entry_(std::move(entry)) {
+    ++entry_->leases;
+}
 
 VolumeLease::VolumeLease(VolumeLease&& other) noexcept
     : uploadMs(other.uploadMs), readMs(other.readMs), entry_(std::move(other.entry_)) {}
@@ -37,126 +37,331 @@ const ResidentVolume& VolumeLease::volume() const { return entry_->volume; }
 
 ResidencyManager::ResidencyManager(gpu::Context& context, std::shared_ptr<const VolumeProvider> provider,
                                    std::uint64_t budgetBytes)
-    : context_(context), provider_(std::move(provider)) {
-    state_.budgetBytes = budgetBytes;
-}
+    : context_(context), provider_(std::move(provider)), budgetBytes_(budgetBytes),
+      table_(std::make_unique<TextureTable>()) {}
 
 ResidencyManager::~ResidencyManager() = default;
 
-std::shared_ptr<VolumeLease::Entry> ResidencyManager::find(const EntryKey& key) {
-    const auto known = entries_.find(key);
-    if (known == entries_.end()) return nullptr;
-    known->second->lastUse = ++clock_;
-    return known->second;
-}
+// --- at any price ---
 
-VolumeLease ResidencyManager::acquire(const VolumeKey& key, FloatTexels floatTexels) {
-    const Kind kind = floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples;
-    if (auto known = find({key, kind})) return VolumeLease(std::move(known));
-    return load(key, floatTexels);
-}
-
-VolumeLease ResidencyManager::load(const VolumeKey& key, FloatTexels floatTexels) {
-    VolumeUpload upload(*provider_, key, !context_.workarounds().r8AsR16, floatTexels);
-    makeRoom(upload.bytes());
-    auto entry = std::make_shared<Entry>();
-    entry->texture.emplace(
-        createTexture([&] { return upload.createTexture(context_); }, !upload.exceedsDevice(context_)));
-    upload.fill(*entry->texture);
-    entry->volume = upload.volume();
-    state_.uploadedBytes += entry->texture->bytes();
-    auto lease =
-        keep({key, floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples}, std::move(entry));
-    lease.uploadMs = upload.uploadMs();
-    lease.readMs = upload.readMs();
-    return lease;
+VolumeLease ResidencyManager::acquire(const VolumeKey& key, FloatTexels floatTexels, SamplesUse use) {
+    return *acquireBy(Deadline::max(), key, floatTexels, use);
 }
 
 VolumeLease ResidencyManager::acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
                                                const DerivedTextureBuilder& build) {
-    const EntryKey entryKey{key, floatTexels == FloatTexels::Full ? Kind::Gradients : Kind::HalfGradients};
-    if (auto known = find(entryKey)) return VolumeLease(std::move(known));
-    const VolumeLease source = acquire(key, floatTexels);
-    const auto& volume = source.volume();
-    makeRoom(static_cast<std::uint64_t>(sampleCount(volume.dims)) * gpu::texelBytes(GL_RGBA16F));
-    auto entry = std::make_shared<Entry>();
-    entry->texture.emplace(
-        createTexture([&] { return gpu::Texture(context_, GL_TEXTURE_3D, GL_RGBA16F, volume.dims); }, true));
-    setVolumeSampling(*entry->texture, volume.meta->grid);
-    build(volume, *entry->texture);
-    entry->volume = volume;
-    auto lease = keep(entryKey, std::move(entry));
-    lease.uploadMs = source.uploadMs;
-    lease.readMs = source.readMs;
+    return *acquireGradientsBy(Deadline::max(), key, floatTexels, build);
+}
+
+std::optional<VolumeLease> ResidencyManager::acquireBy(Deadline deadline, const VolumeKey& key,
+                                                       FloatTexels floatTexels, SamplesUse use) {
+    const TextureKey textureKey{key, samplesKind(floatTexels)};
+    if (auto resident = leaseResident(textureKey, use)) return resident;
+    auto& pending = enqueueSamples(textureKey, floatTexels, use, WantedPriority::Visible);
+    if (!advanceToLease(pending, deadline, nullptr)) return std::nullopt;
+    return leaseResident(textureKey, use);
+}
+
+std::optional<VolumeLease> ResidencyManager::acquireGradientsBy(Deadline deadline, const VolumeKey& key,
+                                                                FloatTexels floatTexels,
+                                                                const DerivedTextureBuilder& build) {
+    const TextureKey textureKey{key, gradientsKind(floatTexels)};
+    if (auto resident = leaseResident(textureKey, SamplesUse::Drawing)) return resident;
+    const auto source = acquireBy(deadline, key, floatTexels);
+    if (!source) return std::nullopt;
+    auto* pending = findPending(textureKey);
+    if (pending == nullptr) {
+        pending = &enqueue(std::make_unique<PendingTexture>(textureKey, source->volume().meta, build),
+                           WantedPriority::Visible);
+    }
+    if (!advanceToLease(*pending, deadline, &source->volume())) return std::nullopt;
+    auto lease = leaseResident(textureKey, SamplesUse::Drawing);
+    lease->uploadMs += source->uploadMs;
+    lease->readMs += source->readMs;
     return lease;
 }
 
-VolumeLease ResidencyManager::keep(const EntryKey& key, std::shared_ptr<Entry> entry) {
-    entry->volume.texture = &*entry->texture;
-    entry->lastUse = ++clock_;
-    entries_.emplace(key, entry);
-    state_.residentBytes += entry->texture->bytes();
-    ++state_.textures;
+bool ResidencyManager::advanceToLease(PendingTexture& pending, Deadline deadline,
+                                      const ResidentVolume* source) {
+    try {
+        if (!pending.begun()) beginAtAnyPrice(pending);
+        if (!pending.advance(deadline, source)) return false;
+    } catch (...) {
+        dequeue(pending);
+        throw;
+    }
+    complete(pending);
+    return true;
+}
+
+void ResidencyManager::complete(PendingTexture& pending) {
+    const TextureKey key = pending.key();
+    auto entry = pending.finish();
+    dequeue(pending);
+    totals_.uploadMs += entry->uploadMs;
+    totals_.readMs += entry->readMs;
+    if (!isGradients(key.kind)) {
+        ++totals_.uploads;
+        totals_.uploadedBytes += entry->bytes;
+    }
+    table_->add(key, std::move(entry));
+}
+
+// --- only if it is there ---
+
+std::optional<VolumeLease> ResidencyManager::leaseResident(const TextureKey& key, SamplesUse use) {
+    auto entry = table_->use(key);
+    if (!entry) return std::nullopt;
+    if (use == SamplesUse::Drawing) entry->clipObject = false;
     return VolumeLease(std::move(entry));
 }
 
-void ResidencyManager::makeRoom(std::uint64_t bytes) {
-    std::uint64_t leasedBytes = 0;
-    for (const auto& [key, entry] : entries_) {
-        if (entry->leases > 0) leasedBytes += entry->texture->bytes();
-    }
-    if (leasedBytes + bytes > state_.budgetBytes) {
-        throw LimitExceeded(
-            "a volume of " + std::to_string(bytes) + " bytes",
-            "the texture budget is " + std::to_string(state_.budgetBytes) + " bytes" +
-                (leasedBytes > 0 ? ", of which the same tile holds " + std::to_string(leasedBytes) : ""),
-            "draw a coarser level, or raise --texture-budget")
-            .withField("texture-budget");
-    }
-    // Evict first and allocate then, so that the peak stays within the budget too.
-    while (state_.residentBytes + bytes > state_.budgetBytes && evictOne()) {
-    }
+std::optional<VolumeLease> ResidencyManager::acquireResident(const VolumeKey& key, FloatTexels floatTexels,
+                                                             SamplesUse use) {
+    return leaseResident({key, samplesKind(floatTexels)}, use);
 }
 
-gpu::Texture ResidencyManager::createTexture(const std::function<gpu::Texture()>& create, bool roomHelps) {
-    while (true) {
-        try {
-            return create();
-        } catch (const LimitExceeded&) {
-            // The device has less memory than the budget hopes for: give back what we can before giving up.
-            if (!roomHelps || !evictOne()) throw;
+std::optional<VolumeLease> ResidencyManager::acquireResidentGradients(const VolumeKey& key,
+                                                                      FloatTexels floatTexels) {
+    return leaseResident({key, gradientsKind(floatTexels)}, SamplesUse::Drawing);
+}
+
+bool ResidencyManager::isResident(const VolumeKey& key, FloatTexels floatTexels) const {
+    return table_->contains({key, samplesKind(floatTexels)});
+}
+
+bool ResidencyManager::areGradientsResident(const VolumeKey& key, FloatTexels floatTexels) const {
+    return table_->contains({key, gradientsKind(floatTexels)});
+}
+
+std::optional<int> ResidencyManager::nearestResidentLevel(const VolumeKey& key,
+                                                          FloatTexels floatTexels) const {
+    const int levels = provider_->describe(key.dataset)->levels();
+    std::optional<int> nearest;
+    VolumeKey at = key;
+    for (at.level = 0; at.level < levels; ++at.level) {
+        if (!isResident(at, floatTexels)) continue;
+        if (!nearest || std::abs(at.level - key.level) < std::abs(*nearest - key.level)) nearest = at.level;
+    }
+    return nearest;
+}
+
+// --- in the background ---
+
+void ResidencyManager::setWanted(const std::vector<WantedVolume>& wanted) {
+    table_->setWanted(wanted);
+    std::set<VolumeKey> keys;
+    for (const auto& volume : wanted)
+        keys.insert(volume.key);
+    std::erase_if(queue_, [&](const auto& pending) {
+        return std::exchange(pending->asked, 0) == 0 && keys.count(pending->key().volume) == 0;
+    });
+    for (const auto& pending : queue_)
+        pending->priority = std::max(WantedPriority::Soon, table_->priority(pending->key().volume));
+    for (const WantedPriority priority : {WantedPriority::Visible, WantedPriority::Soon}) {
+        for (const auto& volume : wanted) {
+            if (volume.priority != priority || isResident(volume.key, volume.floatTexels)) continue;
+            try {
+                keepIfRoom(enqueueSamples({volume.key, samplesKind(volume.floatTexels)}, volume.floatTexels,
+                                          SamplesUse::Drawing, priority));
+            } catch (const NotFound&) {
+                continue; // It was removed since: whoever draws it says so.
+            }
         }
     }
 }
 
-bool ResidencyManager::evictOne() {
-    auto oldest = entries_.end();
-    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        if (entry->second->leases > 0) continue;
-        if (oldest == entries_.end() || entry->second->lastUse < oldest->second->lastUse) oldest = entry;
+bool ResidencyManager::request(const VolumeKey& key, FloatTexels floatTexels, SamplesUse use) {
+    if (isResident(key, floatTexels)) return true;
+    auto& pending =
+        enqueueSamples({key, samplesKind(floatTexels)}, floatTexels, use, WantedPriority::Visible);
+    ++pending.asked;
+    return keepIfRoom(pending);
+}
+
+bool ResidencyManager::requestGradients(const VolumeKey& key, FloatTexels floatTexels,
+                                        const DerivedTextureBuilder& build) {
+    const TextureKey textureKey{key, gradientsKind(floatTexels)};
+    if (table_->contains(textureKey)) return true;
+    if (!request(key, floatTexels)) return false;
+    auto* pending = findPending(textureKey);
+    if (pending == nullptr) {
+        pending =
+            &enqueue(std::make_unique<PendingTexture>(textureKey, provider_->describe(key.dataset), build),
+                     WantedPriority::Visible);
     }
-    if (oldest == entries_.end()) return false;
-    drop(oldest);
-    ++state_.evictions;
+    ++pending->asked;
+    return keepIfRoom(*pending);
+}
+
+bool ResidencyManager::keepIfRoom(PendingTexture& pending) {
+    if (pending.begun() || couldMakeRoom(pending)) return true;
+    dequeue(pending);
+    return false;
+}
+
+bool ResidencyManager::advance(Deadline deadline) {
+    do {
+        auto* pending = mostWanted();
+        if (pending == nullptr) break;
+        advanceInBackground(*pending, deadline);
+    } while (std::chrono::steady_clock::now() < deadline);
+    return !queue_.empty();
+}
+
+void ResidencyManager::advanceInBackground(PendingTexture& pending, Deadline deadline) {
+    try {
+        std::optional<VolumeLease> source;
+        if (isGradients(pending.key().kind)) {
+            const bool half = pending.key().kind == TextureKind::HalfGradients;
+            source = acquireResident(pending.key().volume, half ? FloatTexels::Half : FloatTexels::Full);
+            if (!source) return dequeue(pending); // evicted since: whoever still wants it asks again
+        }
+        if (!pending.begun() && !beginInBackground(pending)) return dequeue(pending);
+        if (pending.advance(deadline, source ? &source->volume() : nullptr)) complete(pending);
+    } catch (const std::exception& error) {
+        // The tile that needs it meets the same error and shows it.
+        logWarning("'" + pending.key().volume.dataset +
+                   "' was not brought in ahead of time: " + error.what());
+        dequeue(pending);
+    }
+}
+
+PendingTexture* ResidencyManager::findPending(const TextureKey& key) const {
+    const auto found =
+        std::find_if(queue_.begin(), queue_.end(), [&](const auto& each) { return each->key() == key; });
+    return found == queue_.end() ? nullptr : found->get();
+}
+
+PendingTexture& ResidencyManager::enqueue(std::unique_ptr<PendingTexture> pending, WantedPriority priority) {
+    pending->priority = priority;
+    pending->sequence = ++lastSequence_;
+    return *queue_.emplace_back(std::move(pending));
+}
+
+PendingTexture& ResidencyManager::enqueueSamples(const TextureKey& key, FloatTexels floatTexels,
+                                                 SamplesUse use, WantedPriority priority) {
+    if (auto* known = findPending(key)) {
+        known->priority = std::max(known->priority, priority);
+        return *known;
+    }
+    return enqueue(std::make_unique<PendingTexture>(*provider_, key, !context_.workarounds().r8AsR16,
+                                                    floatTexels, use == SamplesUse::Clipping),
+                   priority);
+}
+
+void ResidencyManager::dequeue(const PendingTexture& pending) {
+    std::erase_if(queue_, [&](const auto& each) { return each.get() == &pending; });
+}
+
+PendingTexture* ResidencyManager::mostWanted() const {
+    const auto best = std::min_element(queue_.begin(), queue_.end(), [](const auto& a, const auto& b) {
+        return a->priority != b->priority ? a->priority > b->priority : a->sequence < b->sequence;
+    });
+    return best == queue_.end() ? nullptr : best->get();
+}
+
+// --- room ---
+
+std::uint64_t ResidencyManager::occupiedBytes() const {
+    std::uint64_t bytes = table_->bytes();
+    for (const auto& pending : queue_)
+        if (pending->begun()) bytes += pending->bytes();
+    return bytes;
+}
+
+bool ResidencyManager::couldMakeRoom(const PendingTexture& pending) const {
+    std::uint64_t kept = table_->bytes() - table_->evictableBytes(pending.priority);
+    for (const auto& other : queue_)
+        if (other.get() != &pending && other->begun() && other->priority >= pending.priority)
+            kept += other->bytes();
+    return kept + pending.bytes() <= budgetBytes_;
+}
+
+void ResidencyManager::beginAtAnyPrice(PendingTexture& pending) {
+    const std::uint64_t leasedBytes = table_->leasedBytes();
+    if (leasedBytes + pending.bytes() > budgetBytes_) {
+        throw LimitExceeded(
+            "a volume of " + std::to_string(pending.bytes()) + " bytes",
+            "the texture budget is " + std::to_string(budgetBytes_) + " bytes" +
+                (leasedBytes > 0 ? ", of which the same tile holds " + std::to_string(leasedBytes) : ""),
+            "draw a coarser level, or raise --texture-budget")
+            .withField("texture-budget");
+    }
+    createTexture(pending, std::nullopt);
+}
+
+bool ResidencyManager::beginInBackground(PendingTexture& pending) {
+    if (!couldMakeRoom(pending)) return false;
+    createTexture(pending, pending.priority);
     return true;
 }
 
-ResidencyManager::Entries::iterator ResidencyManager::drop(Entries::iterator entry) {
-    state_.residentBytes -= entry->second->texture->bytes();
-    --state_.textures;
-    return entries_.erase(entry);
-}
-
-bool ResidencyManager::isResident(const VolumeKey& key, FloatTexels floatTexels) const {
-    return entries_.count({key, floatTexels == FloatTexels::Full ? Kind::Samples : Kind::HalfSamples}) != 0;
-}
-
-void ResidencyManager::forget(const std::string& dataset) {
-    for (auto entry = entries_.begin(); entry != entries_.end();) {
-        entry = entry->first.first.dataset == dataset ? drop(entry) : std::next(entry);
+void ResidencyManager::createTexture(PendingTexture& pending, std::optional<WantedPriority> below) {
+    // Evict first and allocate then, so that the peak stays within the budget too.
+    while (occupiedBytes() + pending.bytes() > budgetBytes_ && evictOne(below, pending)) {
+    }
+    while (true) {
+        try {
+            pending.begin(context_);
+            return;
+        } catch (const LimitExceeded&) {
+            // The device has less memory than the budget hopes for: give back what we can before giving up.
+            if (pending.exceedsDevice(context_) || !evictOne(below, pending)) throw;
+        }
     }
 }
 
-ResidencyState ResidencyManager::state() const { return state_; }
+bool ResidencyManager::evictOne(std::optional<WantedPriority> below, const PendingTexture& inFavourOf) {
+    PendingTexture* unfinished = nullptr;
+    for (const auto& other : queue_) {
+        if (other.get() == &inFavourOf || !other->begun() || (below && other->priority >= *below)) continue;
+        if (unfinished == nullptr || other->priority <= unfinished->priority) unfinished = other.get();
+    }
+    const auto whole = table_->evictable(below);
+    if (!whole && unfinished == nullptr) return false;
+    // Work under way is given up only for want of anything less wanted.
+    if (whole && (unfinished == nullptr || table_->priority(whole->volume) <= unfinished->priority)) {
+        table_->remove(*whole);
+    } else {
+        dequeue(*unfinished);
+    }
+    ++totals_.evictions;
+    return true;
+}
+
+// --- what it would take ---
+
+std::uint64_t ResidencyManager::bytesOf(const VolumeKey& key, FloatTexels floatTexels) const {
+    return VolumeUpload(*provider_, key, !context_.workarounds().r8AsR16, floatTexels).bytes();
+}
+
+std::uint64_t ResidencyManager::gradientBytesOf(const VolumeKey& key) const {
+    const auto meta = provider_->describe(key.dataset);
+    validateVolumeKey(*meta, key);
+    return static_cast<std::uint64_t>(sampleCount(levelDims(meta->grid.dims, key.level))) *
+           gpu::texelBytes(GL_RGBA16F);
+}
+
+std::shared_ptr<const DatasetMeta> ResidencyManager::describe(const std::string& dataset) const {
+    return provider_->describe(dataset);
+}
+
+void ResidencyManager::forget(const std::string& dataset) {
+    table_->removeDataset(dataset);
+    std::erase_if(queue_, [&](const auto& pending) { return pending->key().volume.dataset == dataset; });
+}
+
+ResidencyState ResidencyManager::state() const {
+    ResidencyState state = totals_;
+    state.budgetBytes = budgetBytes_;
+    table_->describe(state);
+    for (const auto& pending : queue_) {
+        ++state.queuedUploads;
+        state.queuedBytes += pending->remainingBytes();
+        if (pending->begun()) countBytes(state, pending->key().kind, pending->clipObject(), pending->bytes());
+    }
+    return state;
+}
 
 } // namespace voxsheet

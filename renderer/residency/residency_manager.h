@@ -1,62 +1,38 @@
 // Which volumes and gradients are 3D textures on the GPU: one texture per VolumeKey and kind however many
-// cells show it, within a byte budget, least recently used goes first.
+// cells show it, within a byte budget. What is least wanted goes first, and of that the least recently used.
+// Textures can be brought in some slices at a time, so that no frame waits for a whole one.
 #pragma once
 
-#include "gpu/texture.h"
 #include "residency/residency_state.h"
+#include "residency/resident_volume.h"
+#include "residency/wanted_volume.h"
 #include "volume/texture_encoding.h"
 #include "volume/volume_provider.h"
 
-#include <glm/glm.hpp>
-
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace voxsheet {
 
-class VolumeUpload;
+class PendingTexture;
+class TextureTable;
+struct TextureKey;
 
-/// A volume that can be drawn. Texel centres: texture coordinate (i + 1/2) / dims; linear filter; REPEAT on
-/// periodic axes, else CLAMP_TO_EDGE (set on the texture itself).
-struct ResidentVolume {
-    const gpu::Texture* texture = nullptr; ///< GL_TEXTURE_3D, one channel, normalised or float
-    double valueScale = 1.0; ///< value = valueScale * texel + valueOffset, slope and intercept included
-    double valueOffset = 0.0;
-    /// In values. Keep the pointer, not its address, when caching what was derived from it: an evicted
-    /// volume's grid is freed, and another may take its address.
-    std::shared_ptr<const MinMaxGrid> minMax;
-    std::shared_ptr<const DatasetMeta> meta;
-    int field = 0;
-    int step = 0;
-    int level = 0;
-    glm::ivec3 dims{0}; ///< levelDims(meta->grid.dims, level) = texture->size()
-};
+using Deadline = std::chrono::steady_clock::time_point;
 
-/// A resident volume that is not evicted while the lease lives. Ends before its ResidencyManager.
-class VolumeLease {
-public:
-    VolumeLease(const VolumeLease&) = delete;
-    VolumeLease& operator=(const VolumeLease&) = delete;
-    VolumeLease(VolumeLease&& other) noexcept;
-    VolumeLease& operator=(VolumeLease&& other) noexcept;
-    ~VolumeLease();
+/// Fills slices [zBegin, zBegin + zCount) of the RGBA16F texture of a volume's size with what is derived from
+/// the volume's own.
+using DerivedTextureBuilder =
+    std::function<void(const ResidentVolume& volume, gpu::Texture& rgba16f, int zBegin, int zCount)>;
 
-    [[nodiscard]] const ResidentVolume& volume() const;
-    double uploadMs = 0.0; ///< host time spent on conversion and upload by this acquire; 0 when resident
-    double readMs = 0.0;   ///< host time spent in the provider by this acquire; 0 when resident
-
-private:
-    friend class ResidencyManager;
-    struct Entry;
-    explicit VolumeLease(std::shared_ptr<Entry> entry);
-    std::shared_ptr<Entry> entry_;
-};
-
-/// Fills the RGBA16F texture of a volume's size with what was derived from the volume's own.
-using DerivedTextureBuilder = std::function<void(const ResidentVolume& volume, gpu::Texture& rgba16f)>;
+/// What a texture of samples is used for; decides only under which name its bytes are counted.
+enum class SamplesUse { Drawing, Clipping };
 
 /// Belongs to the thread of its Context.
 class ResidencyManager {
@@ -67,19 +43,60 @@ public:
     ResidencyManager(const ResidencyManager&) = delete;
     ResidencyManager& operator=(const ResidencyManager&) = delete;
 
-    /// Uploads the volume if it is not resident, evicting the least recently used ones without a lease as far
-    /// as the budget asks. Throws what the provider throws; NotFound for a field, step or level that the
-    /// dataset does not have; LimitExceeded when the volume alone, or with the leased ones, breaks the budget
-    /// or the device's limits.
-    [[nodiscard]] VolumeLease acquire(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full);
-
+    // --- at any price: evicts whatever has no lease, the least wanted first ---
+    /// Throws what the provider throws; NotFound for a field, step or level that the dataset does not have;
+    /// LimitExceeded when the volume alone, or with the leased ones, breaks the budget or the device's
+    /// limits.
+    [[nodiscard]] VolumeLease acquire(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full,
+                                      SamplesUse use = SamplesUse::Drawing);
     /// The gradient texture of a volume: the lease's volume() is as acquire() gives it but for `texture`.
     /// Built by `build` when it is not resident; the volume itself is then made resident too. Throws as
     /// acquire.
     [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
                                                const DerivedTextureBuilder& build);
+    /// As acquire and acquireGradients, but stops at the deadline (after one chunk at least): empty as long
+    /// as it must be called again.
+    [[nodiscard]] std::optional<VolumeLease> acquireBy(Deadline deadline, const VolumeKey& key,
+                                                       FloatTexels floatTexels = FloatTexels::Full,
+                                                       SamplesUse use = SamplesUse::Drawing);
+    [[nodiscard]] std::optional<VolumeLease> acquireGradientsBy(Deadline deadline, const VolumeKey& key,
+                                                                FloatTexels floatTexels,
+                                                                const DerivedTextureBuilder& build);
 
+    // --- only if it is there ---
+    [[nodiscard]] std::optional<VolumeLease> acquireResident(const VolumeKey& key,
+                                                             FloatTexels floatTexels = FloatTexels::Full,
+                                                             SamplesUse use = SamplesUse::Drawing);
+    [[nodiscard]] std::optional<VolumeLease> acquireResidentGradients(const VolumeKey& key,
+                                                                      FloatTexels floatTexels);
     [[nodiscard]] bool isResident(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full) const;
+    [[nodiscard]] bool areGradientsResident(const VolumeKey& key, FloatTexels floatTexels) const;
+    /// The resident level of the volume that is nearest to key.level; of two, the finer one.
+    [[nodiscard]] std::optional<int> nearestResidentLevel(const VolumeKey& key,
+                                                          FloatTexels floatTexels) const;
+
+    // --- in the background: evicts only what is less wanted ---
+    /// Replaces what is wanted; volumes of it that are not resident are queued, the visible ones first.
+    /// Uploads that were asked for before and are not wanted any more are given up. Names that the provider
+    /// does not know are left out.
+    void setWanted(const std::vector<WantedVolume>& wanted);
+    /// Queues an upload as wanted as what is visible. False when there is no room for it beside what is
+    /// visible: asking again is of no use until something changes. Throws NotFound as acquire.
+    bool request(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full,
+                 SamplesUse use = SamplesUse::Drawing);
+    /// Likewise; waits in the queue for the volume's own samples, which are queued too.
+    bool requestGradients(const VolumeKey& key, FloatTexels floatTexels, const DerivedTextureBuilder& build);
+    /// Works on the queue: one chunk at least, then as many as begin before the deadline. False when nothing
+    /// is left to do. An upload that fails, or finds no room, leaves the queue.
+    bool advance(Deadline deadline);
+    [[nodiscard]] bool isIdle() const { return queue_.empty(); }
+
+    // --- what it would take ---
+    /// Bytes of the texture. Throws NotFound as acquire.
+    [[nodiscard]] std::uint64_t bytesOf(const VolumeKey& key, FloatTexels floatTexels) const;
+    [[nodiscard]] std::uint64_t gradientBytesOf(const VolumeKey& key) const;
+    [[nodiscard]] std::uint64_t budgetBytes() const { return budgetBytes_; }
+    [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const;
 
     /// Drops every texture of a dataset. One under lease is freed when its lease ends, and is not handed out
     /// again.
@@ -88,24 +105,35 @@ public:
     [[nodiscard]] ResidencyState state() const;
 
 private:
-    using Entry = VolumeLease::Entry;
-    enum class Kind { Samples, HalfSamples, Gradients, HalfGradients };
-    using EntryKey = std::pair<VolumeKey, Kind>;
-    using Entries = std::map<EntryKey, std::shared_ptr<Entry>>;
+    using Queue = std::vector<std::unique_ptr<PendingTexture>>;
 
-    [[nodiscard]] std::shared_ptr<Entry> find(const EntryKey& key);
-    [[nodiscard]] VolumeLease load(const VolumeKey& key, FloatTexels floatTexels);
-    [[nodiscard]] VolumeLease keep(const EntryKey& key, std::shared_ptr<Entry> entry);
-    void makeRoom(std::uint64_t bytes);
-    [[nodiscard]] gpu::Texture createTexture(const std::function<gpu::Texture()>& create, bool roomHelps);
-    bool evictOne();
-    Entries::iterator drop(Entries::iterator entry);
+    [[nodiscard]] std::optional<VolumeLease> leaseResident(const TextureKey& key, SamplesUse use);
+    [[nodiscard]] PendingTexture* findPending(const TextureKey& key) const;
+    PendingTexture& enqueue(std::unique_ptr<PendingTexture> pending, WantedPriority priority);
+    PendingTexture& enqueueSamples(const TextureKey& key, FloatTexels floatTexels, SamplesUse use,
+                                   WantedPriority priority);
+    bool keepIfRoom(PendingTexture& pending);
+    void dequeue(const PendingTexture& pending);
+    [[nodiscard]] PendingTexture* mostWanted() const;
+    [[nodiscard]] bool advanceToLease(PendingTexture& pending, Deadline deadline,
+                                      const ResidentVolume* source);
+    void advanceInBackground(PendingTexture& pending, Deadline deadline);
+    void complete(PendingTexture& pending);
+
+    [[nodiscard]] std::uint64_t occupiedBytes() const;
+    [[nodiscard]] bool couldMakeRoom(const PendingTexture& pending) const;
+    void beginAtAnyPrice(PendingTexture& pending);
+    [[nodiscard]] bool beginInBackground(PendingTexture& pending);
+    bool evictOne(std::optional<WantedPriority> below, const PendingTexture& inFavourOf);
+    void createTexture(PendingTexture& pending, std::optional<WantedPriority> below);
 
     gpu::Context& context_;
     std::shared_ptr<const VolumeProvider> provider_;
-    Entries entries_;
-    std::uint64_t clock_ = 0;
-    ResidencyState state_;
+    std::uint64_t budgetBytes_;
+    std::unique_ptr<TextureTable> table_;
+    Queue queue_;
+    std::uint64_t lastSequence_ = 0;
+    ResidencyState totals_; ///< the counts since the start
 };
 
 } // namespace voxsheet

@@ -1,18 +1,16 @@
 #include "residency/volume_upload.h"
 
-#include "gpu/context.h"
-
 #include <algorithm>
-#include <chrono>
+#include <span>
 #include <utility>
-#include <vector>
 
 namespace voxsheet {
 
 namespace {
 
-/// Staging per chunk: large enough for full read and upload speed, small beside the volumes.
-constexpr std::size_t kChunkBytes = std::size_t{16} << 20;
+/// Staging per chunk: one takes about a millisecond, so that uploads can stop for a frame; larger ones are
+/// not faster.
+constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
 class Stopwatch {
 public:
@@ -111,35 +109,44 @@ int VolumeUpload::slicesPerChunk() const {
         std::clamp(kChunkBytes / sliceBytes, std::size_t{1}, static_cast<std::size_t>(volume_.dims.z)));
 }
 
-void VolumeUpload::fill(gpu::Texture& texture) {
+std::uint64_t VolumeUpload::remainingBytes() const {
+    const auto slices = static_cast<std::uint64_t>(volume_.dims.z);
+    return bytes() / slices * (slices - static_cast<std::uint64_t>(nextSlice_));
+}
+
+bool VolumeUpload::advance(gpu::Texture& texture, Deadline deadline) {
+    do {
+        if (nextSlice_ == volume_.dims.z) {
+            const Stopwatch watch(readMs_);
+            volume_.minMax = std::make_shared<const MinMaxGrid>(provider_.readMinMax(key_));
+            return true;
+        }
+        uploadChunk(texture);
+    } while (std::chrono::steady_clock::now() < deadline);
+    return false;
+}
+
+void VolumeUpload::uploadChunk(gpu::Texture& texture) {
     const std::size_t sliceSamples =
         static_cast<std::size_t>(volume_.dims.x) * static_cast<std::size_t>(volume_.dims.y);
-    const int chunkSlices = slicesPerChunk();
     const bool verbatim = isVerbatim(type_, encoding_);
-    const std::size_t chunkSamples = sliceSamples * static_cast<std::size_t>(chunkSlices);
-    std::vector<std::byte> stored(chunkSamples * scalarBytes(type_));
-    std::vector<std::byte> texels(verbatim ? 0 : chunkSamples * texelFormatBytes(encoding_.format));
-
-    for (int z = 0; z < volume_.dims.z; z += chunkSlices) {
-        const int slices = std::min(chunkSlices, volume_.dims.z - z);
-        const std::size_t samples = sliceSamples * static_cast<std::size_t>(slices);
-        const std::span<std::byte> source(stored.data(), samples * scalarBytes(type_));
-        {
-            const Stopwatch watch(readMs_);
-            provider_.readSlices(key_, z, slices, source);
-        }
-        const Stopwatch watch(uploadMs_);
-        std::span<const std::byte> upload = source;
-        if (!verbatim) {
-            const std::span<std::byte> converted(texels.data(), samples * texelFormatBytes(encoding_.format));
-            encodeTexels(type_, encoding_, source, converted);
-            upload = converted;
-        }
-        texture.upload({0, 0, z}, {volume_.dims.x, volume_.dims.y, slices}, GL_RED,
-                       componentType(encoding_.format), upload);
+    const int slices = std::min(slicesPerChunk(), volume_.dims.z - nextSlice_);
+    const std::size_t samples = sliceSamples * static_cast<std::size_t>(slices);
+    stored_.resize(samples * scalarBytes(type_));
+    {
+        const Stopwatch watch(readMs_);
+        provider_.readSlices(key_, nextSlice_, slices, stored_);
     }
-    const Stopwatch watch(readMs_);
-    volume_.minMax = std::make_shared<const MinMaxGrid>(provider_.readMinMax(key_));
+    const Stopwatch watch(uploadMs_);
+    std::span<const std::byte> upload = stored_;
+    if (!verbatim) {
+        texels_.resize(samples * texelFormatBytes(encoding_.format));
+        encodeTexels(type_, encoding_, stored_, texels_);
+        upload = texels_;
+    }
+    texture.upload({0, 0, nextSlice_}, {volume_.dims.x, volume_.dims.y, slices}, GL_RED,
+                   componentType(encoding_.format), upload);
+    nextSlice_ += slices;
 }
 
 } // namespace voxsheet

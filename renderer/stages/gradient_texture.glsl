@@ -6,6 +6,7 @@ layout(rgba16f, binding = 0) writeonly uniform image3D gradients;
 uniform ivec3 periodic; // 1 on axes that wrap
 uniform float scale;
 uniform int firstSlice;
+uniform int endSlice;
 
 float difference(ivec3 at, int axis, ivec3 size) {
     ivec3 before = at;
@@ -19,7 +20,7 @@ float difference(ivec3 at, int axis, ivec3 size) {
 void main() {
     ivec3 size = textureSize(volume, 0);
     ivec3 at = ivec3(gl_GlobalInvocationID) + ivec3(0, 0, firstSlice);
-    if (any(greaterThanEqual(at, size))) return;
+    if (any(greaterThanEqual(at, size)) || at.z >= endSlice) return;
     vec3 gradient = vec3(difference(at, 0, size), difference(at, 1, size), difference(at, 2, size));
     imageStore(gradients, at, vec4(scale * gradient, 0.0));
 }

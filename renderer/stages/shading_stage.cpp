@@ -80,19 +80,21 @@ void ShadingStage::bind(const gpu::Program& program, const TileSpec& tile, const
     program.set("gradientPeriodic", glm::vec3(grid.periodic));
 }
 
-void ShadingStage::buildGradients(ProgramCache& programs, const ResidentVolume& volume,
-                                  gpu::Texture& rgba16f) {
+void ShadingStage::buildGradients(ProgramCache& programs, const ResidentVolume& volume, gpu::Texture& rgba16f,
+                                  int zBegin, int zCount) {
     const auto& program = programs.compute("stages/gradient_texture.glsl", {});
     volume.texture->bind(0);
     rgba16f.bindImage(0, GL_WRITE_ONLY);
     program.set("periodic", glm::ivec3(volume.meta->grid.periodic));
     program.set("scale", static_cast<float>(1.0 / texelRange(volume)));
     const auto groups = [](int samples, int size) { return (samples + size - 1) / size; };
-    for (int slice = 0; slice < volume.dims.z; slice += kSlicesPerDispatch) {
-        const int slices = std::min(kSlicesPerDispatch, volume.dims.z - slice);
+    const int end = zBegin + zCount;
+    program.set("endSlice", end);
+    for (int slice = zBegin; slice < end; slice += kSlicesPerDispatch) {
+        const int slices = std::min(kSlicesPerDispatch, end - slice);
         program.set("firstSlice", slice);
         program.dispatch({groups(volume.dims.x, 8), groups(volume.dims.y, 8), groups(slices, 4)});
-        if (slice + slices < volume.dims.z) glFlush();
+        if (slice + slices < end) glFlush();
     }
     gpu::storageBarrier();
 }

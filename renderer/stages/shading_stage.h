@@ -25,9 +25,11 @@ public:
     static void bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
                      const ResidentVolume* gradients);
 
-    /// Fills `rgba16f` with central differences of the volume's texels per voxel (one-sided at ends that do
-    /// not wrap), divided by the largest that its texels allow, so that 16-bit floats hold them.
-    static void buildGradients(ProgramCache& programs, const ResidentVolume& volume, gpu::Texture& rgba16f);
+    /// Fills slices [zBegin, zBegin + zCount) of `rgba16f` with central differences of the volume's texels
+    /// per voxel (one-sided at ends that do not wrap), divided by the largest that its texels allow, so that
+    /// 16-bit floats hold them.
+    static void buildGradients(ProgramCache& programs, const ResidentVolume& volume, gpu::Texture& rgba16f,
+                               int zBegin, int zCount);
 };
 
 } // namespace voxsheet

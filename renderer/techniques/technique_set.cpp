@@ -8,6 +8,7 @@
 #include "techniques/raycast/raycast.h"
 #include "techniques/slicing/slicing.h"
 #include "techniques/surface/surface.h"
+#include "techniques/tile_acquisition.h"
 
 #include <cmath>
 #include <optional>
@@ -70,6 +71,12 @@ public:
     SharedStages stages;
     SlicingTechnique slicing;
     SurfaceTechnique surface;
+
+    [[nodiscard]] DerivedTextureBuilder gradientBuilder() {
+        return [this](const ResidentVolume& volume, gpu::Texture& texture, int zBegin, int zCount) {
+            ShadingStage::buildGradients(stages.programs, volume, texture, zBegin, zCount);
+        };
+    }
 };
 
 TechniqueSet::TechniqueSet(gpu::Context& context)
@@ -79,13 +86,6 @@ TechniqueSet::~TechniqueSet() = default;
 
 namespace {
 
-/// Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
-bool wantsGradientTexture(const TileSpec& tile) {
-    const bool usesGradients = tile.technique == Technique::Slices || tile.technique == Technique::Raycast ||
-                               tile.technique == Technique::Isosurface;
-    return usesGradients && tile.shading.enabled && tile.shading.gradient == GradientSource::Texture;
-}
-
 const ResidentVolume* volumeOf(const std::optional<VolumeLease>& lease) {
     return lease ? &lease->volume() : nullptr;
 }
@@ -93,20 +93,19 @@ const ResidentVolume* volumeOf(const std::optional<VolumeLease>& lease) {
 } // namespace
 
 TileVolumes TechniqueSet::acquire(ResidencyManager& residency, const TileSpec& tile) {
+    return *acquireBy(residency, tile, askedLevels(tile), Deadline::max());
+}
+
+std::optional<TileVolumes> TechniqueSet::acquireBy(ResidencyManager& residency, const TileSpec& tile,
+                                                   const TileLevels& levels, Deadline deadline) {
     validate(tile);
-    const VolumeKey key{tile.dataset, tile.field, tile.step, tile.level};
-    TileVolumes volumes{residency.acquire(key, tile.floatTexels), {}, {}, {}};
-    if (wantsGradientTexture(tile))
-        volumes.gradients = residency.acquireGradients(
-            key, tile.floatTexels, [this](const ResidentVolume& volume, gpu::Texture& texture) {
-                ShadingStage::buildGradients(implementation_->stages.programs, volume, texture);
-            });
-    if (tile.clip.object) volumes.clipObject = residency.acquire({tile.clip.object->dataset, 0, 0, 0});
-    if (tile.technique == Technique::Isosurface && tile.isosurface.colouredBy) {
-        const auto& colours = *tile.isosurface.colouredBy;
-        volumes.colours = residency.acquire({colours.dataset, colours.field, colours.step, colours.level});
-    }
-    return volumes;
+    return acquireTileBy(residency, tile, levels, deadline, implementation_->gradientBuilder());
+}
+
+TileVolumes TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                        const TileLevels& levels) {
+    validate(tile);
+    return acquireTileAtHand(residency, tile, levels, implementation_->gradientBuilder());
 }
 
 void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,

@@ -27,6 +27,13 @@ public:
     /// (with field) if the tile's numbers are out of the ranges documented in TileSpec and its parts, and as
     /// ResidencyManager::acquire.
     [[nodiscard]] TileVolumes acquire(ResidencyManager& residency, const TileSpec& tile);
+    /// As acquire, at these levels; stops at the deadline: empty as long as it must be called again.
+    [[nodiscard]] std::optional<TileVolumes> acquireBy(ResidencyManager& residency, const TileSpec& tile,
+                                                       const TileLevels& levels, Deadline deadline);
+    /// What comes nearest to these levels and is resident (of a volume of which nothing is, a small level is
+    /// brought in at once); what is missing is queued for ResidencyManager::advance. Throws as acquire.
+    [[nodiscard]] TileVolumes acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                            const TileLevels& levels);
 
     /// Draws `tile` from `volumes` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row
     /// 0 at the bottom of the picture. Every texel is written: colour premultiplied by alpha, no background.

@@ -1,0 +1,185 @@
+#include "techniques/tile_acquisition.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace voxsheet {
+namespace {
+
+/// A level with at most so many samples is read and uploaded within a few milliseconds.
+constexpr long kSmallLevelSamples = 64L * 64 * 64;
+
+/// One volume that the tile reads.
+struct Part {
+    VolumeKey key;
+    FloatTexels floatTexels = FloatTexels::Full;
+    SamplesUse use = SamplesUse::Drawing;
+};
+
+Part drawnPart(const TileSpec& tile, int level) {
+    return {{tile.dataset, tile.field, tile.step, level}, tile.floatTexels, SamplesUse::Drawing};
+}
+
+std::optional<Part> clipPart(const TileSpec& tile, int level) {
+    if (!tile.clip.object) return std::nullopt;
+    return Part{{tile.clip.object->dataset, 0, 0, level}, FloatTexels::Full, SamplesUse::Clipping};
+}
+
+std::optional<Part> colourPart(const TileSpec& tile, int level) {
+    if (tile.technique != Technique::Isosurface || !tile.isosurface.colouredBy) return std::nullopt;
+    const auto& colours = *tile.isosurface.colouredBy;
+    return Part{
+        {colours.dataset, colours.field, colours.step, level}, FloatTexels::Full, SamplesUse::Drawing};
+}
+
+/// One of the levels, and the bytes of what it stands for.
+struct LevelBytes {
+    int* level;
+    int coarsest;
+    std::uint64_t bytes;
+};
+
+VolumeLease acquireSmallLevel(ResidencyManager& residency, const Part& part) {
+    const auto meta = residency.describe(part.key.dataset);
+    VolumeKey key = part.key;
+    while (key.level + 1 < meta->levels() &&
+           sampleCount(levelDims(meta->grid.dims, key.level)) > kSmallLevelSamples)
+        ++key.level;
+    while (key.level + 1 < meta->levels() &&
+           residency.bytesOf(key, part.floatTexels) > residency.budgetBytes() / 4)
+        ++key.level;
+    return residency.acquire(key, part.floatTexels, part.use);
+}
+
+/// \param awaited  set when the level itself is on its way
+VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& awaited) {
+    if (auto exact = residency.acquireResident(part.key, part.floatTexels, part.use))
+        return std::move(*exact);
+    const auto atHand = [&] {
+        VolumeKey key = part.key;
+        if (const auto level = residency.nearestResidentLevel(part.key, part.floatTexels)) key.level = *level;
+        auto lease = residency.acquireResident(key, part.floatTexels, part.use);
+        return lease ? std::move(*lease) : acquireSmallLevel(residency, part);
+    };
+    auto lease = atHand();
+    if (lease.volume().level != part.key.level)
+        awaited = residency.request(part.key, part.floatTexels, part.use) || awaited;
+    return lease;
+}
+
+} // namespace
+
+bool wantsGradientTexture(const TileSpec& tile) {
+    // Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
+    const bool usesGradients = tile.technique == Technique::Slices || tile.technique == Technique::Raycast ||
+                               tile.technique == Technique::Isosurface;
+    return usesGradients && tile.shading.enabled && tile.shading.gradient == GradientSource::Texture;
+}
+
+TileLevels askedLevels(const TileSpec& tile) {
+    TileLevels levels;
+    levels.volume = tile.level;
+    if (tile.isosurface.colouredBy) levels.colours = tile.isosurface.colouredBy->level;
+    return levels;
+}
+
+TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec& tile) {
+    TileLevels levels = askedLevels(tile);
+    while (true) {
+        std::vector<LevelBytes> parts;
+        const auto add = [&](const std::optional<Part>& part, int& level, bool gradients) {
+            if (!part) return;
+            // One volume read in two roles is one texture.
+            std::uint64_t bytes = residency.bytesOf(part->key, part->floatTexels);
+            if (gradients) bytes += residency.gradientBytesOf(part->key);
+            parts.push_back({&level, residency.describe(part->key.dataset)->levels() - 1, bytes});
+        };
+        add(drawnPart(tile, levels.volume), levels.volume, wantsGradientTexture(tile));
+        add(clipPart(tile, levels.clipObject), levels.clipObject, false);
+        add(colourPart(tile, levels.colours), levels.colours, false);
+        std::uint64_t sum = 0;
+        for (const auto& part : parts)
+            sum += part.bytes;
+        if (sum <= residency.budgetBytes()) return levels;
+        std::erase_if(parts, [](const LevelBytes& part) { return *part.level >= part.coarsest; });
+        if (parts.empty()) {
+            throw LimitExceeded("the coarsest levels that this picture needs take " + std::to_string(sum) +
+                                    " bytes",
+                                "the texture budget is " + std::to_string(residency.budgetBytes()) + " bytes",
+                                "raise --texture-budget")
+                .withField("texture-budget");
+        }
+        ++*std::max_element(parts.begin(), parts.end(), [](const LevelBytes& a, const LevelBytes& b) {
+               return a.bytes < b.bytes;
+           })->level;
+    }
+}
+
+bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, const TileLevels& levels) {
+    const auto resident = [&](const std::optional<Part>& part) {
+        return !part || residency.isResident(part->key, part->floatTexels);
+    };
+    const Part drawn = drawnPart(tile, levels.volume);
+    return resident(drawn) && resident(clipPart(tile, levels.clipObject)) &&
+           resident(colourPart(tile, levels.colours)) &&
+           (!wantsGradientTexture(tile) || residency.areGradientsResident(drawn.key, drawn.floatTexels));
+}
+
+std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,
+                                         const TileLevels& levels, Deadline deadline,
+                                         const DerivedTextureBuilder& buildGradients) {
+    const auto acquire = [&](const Part& part) {
+        return residency.acquireBy(deadline, part.key, part.floatTexels, part.use);
+    };
+    const Part drawn = drawnPart(tile, levels.volume);
+    auto volume = acquire(drawn);
+    if (!volume) return std::nullopt;
+    TileVolumes volumes{std::move(*volume), {}, {}, {}, false, false};
+    if (wantsGradientTexture(tile)) {
+        volumes.gradients =
+            residency.acquireGradientsBy(deadline, drawn.key, drawn.floatTexels, buildGradients);
+        if (!volumes.gradients) return std::nullopt;
+    }
+    if (const auto part = clipPart(tile, levels.clipObject)) {
+        volumes.clipObject = acquire(*part);
+        if (!volumes.clipObject) return std::nullopt;
+    }
+    if (const auto part = colourPart(tile, levels.colours)) {
+        volumes.colours = acquire(*part);
+        if (!volumes.colours) return std::nullopt;
+    }
+    return volumes;
+}
+
+TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile, const TileLevels& levels,
+                              const DerivedTextureBuilder& buildGradients) {
+    bool awaited = false;
+    const Part drawn = drawnPart(tile, levels.volume);
+    TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, false, false};
+    volumes.standIn = volumes.volume.volume().level != levels.volume;
+    if (wantsGradientTexture(tile)) {
+        VolumeKey key = drawn.key;
+        key.level = volumes.volume.volume().level;
+        // Without them the shader takes six taps: slower, and at samples the same.
+        volumes.gradients = residency.acquireResidentGradients(key, tile.floatTexels);
+        if (!volumes.gradients || key.level != levels.volume) {
+            volumes.standIn = true;
+            awaited = residency.requestGradients(drawn.key, drawn.floatTexels, buildGradients) || awaited;
+        }
+    }
+    if (const auto part = clipPart(tile, levels.clipObject)) {
+        volumes.clipObject = acquireAtHand(residency, *part, awaited);
+        volumes.standIn = volumes.standIn || volumes.clipObject->volume().level != levels.clipObject;
+    }
+    if (const auto part = colourPart(tile, levels.colours)) {
+        volumes.colours = acquireAtHand(residency, *part, awaited);
+        volumes.standIn = volumes.standIn || volumes.colours->volume().level != levels.colours;
+    }
+    volumes.awaited = awaited;
+    return volumes;
+}
+
+} // namespace voxsheet

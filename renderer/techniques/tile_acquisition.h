@@ -1,0 +1,33 @@
+// Makes resident what a tile is drawn from, or finds what stands in for it meanwhile.
+#pragma once
+
+#include "techniques/tile_volumes.h"
+
+namespace voxsheet {
+
+/// True when the tile's light reads a gradient texture.
+[[nodiscard]] bool wantsGradientTexture(const TileSpec& tile);
+
+/// As the tile asks; the clip object at its level 0.
+[[nodiscard]] TileLevels askedLevels(const TileSpec& tile);
+
+/// The finest levels, from those that the tile asks for on, of which all that the tile needs fits the texture
+/// budget together: what takes most is made coarser first. Throws LimitExceeded if not even the coarsest ones
+/// fit, NotFound as ResidencyManager::acquire.
+[[nodiscard]] TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec& tile);
+
+[[nodiscard]] bool isTileResident(const ResidencyManager& residency, const TileSpec& tile,
+                                  const TileLevels& levels);
+
+/// Empty as long as it must be called again. Throws as ResidencyManager::acquire.
+[[nodiscard]] std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,
+                                                       const TileLevels& levels, Deadline deadline,
+                                                       const DerivedTextureBuilder& buildGradients);
+
+/// What comes nearest to these levels and is resident; of a volume of which nothing is, a small level is
+/// brought in at once. What is missing is queued. Throws as ResidencyManager::acquire.
+[[nodiscard]] TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                            const TileLevels& levels,
+                                            const DerivedTextureBuilder& buildGradients);
+
+} // namespace voxsheet
