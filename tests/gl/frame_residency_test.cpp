@@ -1,0 +1,224 @@
+// What frames show while volumes are brought in, and when the budget does not hold them.
+#include "frame/render_thread.h"
+
+#include "base/errors.h"
+#include "gl_fixture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace voxsheet {
+namespace {
+
+constexpr int kDim = 64;
+constexpr int kPixels = 64;
+constexpr std::uint64_t kBytes = std::uint64_t{kDim} * kDim * kDim * 4;
+constexpr int kVolumes = 6;
+
+std::string nameOf(int i) { return "v" + std::to_string(i); }
+
+/// Levels of a volume that is slow to read, so that uploads take many slices.
+class SlowProvider : public MemoryVolumeProvider {
+public:
+    void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override {
+        if (key.level == 0) std::this_thread::sleep_for(delay);
+        MemoryVolumeProvider::readSlices(key, zBegin, zCount, out);
+    }
+    std::chrono::milliseconds delay{0};
+};
+
+class FrameResidency : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!haveOpenGl()) GTEST_SKIP() << "no EGL device gives OpenGL 4.5";
+        for (int i = 0; i < kVolumes; ++i) {
+            addVolume(*provider_, nameOf(i), glm::ivec3(kDim), ScalarType::F32, [i](int x, int y, int z) {
+                const double c = 0.5 * (kDim - 1);
+                return std::max(0.0, 255.0 - (6.0 + i) * std::hypot(x - c, y - c, z - c));
+            });
+        }
+    }
+    static TileSpec tile(int i, bool lit = false) {
+        TileSpec made = frontTile(nameOf(i), kDim, 255.0, kPixels);
+        made.shading.enabled = lit;
+        made.shading.gradient = GradientSource::Texture;
+        return made;
+    }
+    static FrameSpec frameOf(std::vector<TileSpec> tiles, LevelChoice levels) {
+        FrameSpec frame;
+        frame.tiles = std::move(tiles);
+        frame.levels = levels;
+        return frame;
+    }
+    static RenderOptions budget(std::uint64_t bytes) {
+        RenderOptions options;
+        options.textureBudgetBytes = bytes;
+        return options;
+    }
+    static TilePixels draw(RenderThread& thread, const TileSpec& tile, LevelChoice levels,
+                           FramePriority priority = FramePriority::Interactive) {
+        return thread.submit(frameOf({tile}, levels), priority).get().tiles.at(0);
+    }
+    /// Draws at hand until nothing stands in any more.
+    static int framesUntilWhole(RenderThread& thread, const TileSpec& tile) {
+        for (int frames = 1; frames < 2000; ++frames) {
+            const auto pixels = draw(thread, tile, LevelChoice::AtHand);
+            if (!pixels.standIn) return frames;
+            EXPECT_TRUE(pixels.awaited);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return -1;
+    }
+    std::shared_ptr<SlowProvider> provider_ = std::make_shared<SlowProvider>();
+};
+
+TEST_F(FrameResidency, ATileIsDrawnFromASmallLevelUntilItsOwnIsThere) {
+    provider_->delay = std::chrono::milliseconds(20);
+    // 2 MiB slices of which none is small: a volume of 128^3 whose small level is level 1.
+    addVolume(*provider_, "large", glm::ivec3(2 * kDim), ScalarType::F32,
+              [](int x, int y, int z) { return std::min(255.0, 1.0 * x + y + z); });
+    RenderThread thread(provider_, {});
+    const TileSpec large = frontTile("large", 2 * kDim, 255.0, kPixels);
+    const auto first = draw(thread, large, LevelChoice::AtHand);
+    ASSERT_EQ(first.error, "");
+    EXPECT_EQ(first.level, 1);
+    EXPECT_TRUE(first.standIn);
+    EXPECT_TRUE(first.awaited);
+    EXPECT_EQ(first.note, "");
+    TileSpec coarse = large;
+    coarse.level = 1;
+    EXPECT_EQ(first.rgba8, draw(thread, coarse, LevelChoice::Exact).rgba8) << "it is that level's picture";
+    EXPECT_GT(framesUntilWhole(thread, large), 1);
+    const auto whole = draw(thread, large, LevelChoice::AtHand);
+    EXPECT_EQ(whole.level, 0);
+    EXPECT_EQ(whole.rgba8, draw(thread, large, LevelChoice::Exact).rgba8);
+}
+
+TEST_F(FrameResidency, LightWithoutItsGradientTextureStandsInToo) {
+    RenderThread thread(provider_, {});
+    const auto exact = draw(thread, tile(0, true), LevelChoice::Exact);
+    RenderThread fresh(provider_, {});
+    const auto first = draw(fresh, tile(0, true), LevelChoice::AtHand);
+    ASSERT_EQ(first.error, "");
+    EXPECT_TRUE(first.standIn);
+    EXPECT_GT(framesUntilWhole(fresh, tile(0, true)), 0);
+    const auto whole = draw(fresh, tile(0, true), LevelChoice::AtHand);
+    EXPECT_EQ(whole.rgba8, exact.rgba8);
+    EXPECT_EQ(fresh.residency().gradientBytes, 2 * kBytes);
+    EXPECT_EQ(fresh.residency().sampleBytes, kBytes);
+}
+
+TEST_F(FrameResidency, PicturesOfASwappedWorkingSetAreThoseOfALargeBudget) {
+    RenderThread roomy(provider_, {});
+    // Lit tiles take three times a volume: none but the one that is drawn fits.
+    RenderThread tight(provider_, budget(3 * kBytes + kBytes / 2));
+    std::vector<TileSpec> tiles;
+    for (int round = 0; round < 2; ++round)
+        for (int i = 0; i < kVolumes; ++i)
+            tiles.push_back(tile(i, i % 2 == 0));
+    const auto expected = roomy.submit(frameOf(tiles, LevelChoice::Exact), FramePriority::Final).get();
+    for (const LevelChoice levels : {LevelChoice::Exact, LevelChoice::WithinBudget}) {
+        const auto swapped = tight.submit(frameOf(tiles, levels), FramePriority::Final).get();
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            ASSERT_EQ(swapped.tiles[i].error, "");
+            EXPECT_FALSE(swapped.tiles[i].standIn);
+            EXPECT_EQ(swapped.tiles[i].note, "");
+            EXPECT_EQ(swapped.tiles[i].rgba8, expected.tiles[i].rgba8) << i;
+        }
+        EXPECT_LE(tight.residency().residentBytes, tight.residency().budgetBytes);
+    }
+    EXPECT_GT(tight.residency().evictions, 6U);
+}
+
+TEST_F(FrameResidency, ALevelAboveTheBudgetIsAnErrorOrACoarserLevelThatSaysSo) {
+    RenderThread thread(provider_, budget(kBytes - 1));
+    const auto exact = draw(thread, tile(0), LevelChoice::Exact, FramePriority::Export);
+    EXPECT_EQ(exact.errorKind, ErrorKind::LimitExceeded);
+    EXPECT_NE(exact.error.find("--texture-budget"), std::string::npos) << exact.error;
+    EXPECT_TRUE(exact.rgba8.empty());
+    TileSpec coarse = tile(0);
+    coarse.level = 1;
+    const auto expected = draw(thread, coarse, LevelChoice::Exact);
+    for (const LevelChoice levels : {LevelChoice::WithinBudget, LevelChoice::AtHand}) {
+        const auto pixels = draw(thread, tile(0), levels);
+        ASSERT_EQ(pixels.error, "");
+        EXPECT_EQ(pixels.level, 1);
+        EXPECT_NE(pixels.note.find("level 1 instead of 0"), std::string::npos) << pixels.note;
+        EXPECT_FALSE(pixels.standIn) << "nothing better will come";
+        EXPECT_EQ(pixels.rgba8, expected.rgba8);
+    }
+    RenderThread hopeless(provider_, budget(100));
+    for (const LevelChoice levels : {LevelChoice::Exact, LevelChoice::WithinBudget, LevelChoice::AtHand})
+        EXPECT_EQ(draw(hopeless, tile(0), levels).errorKind, ErrorKind::LimitExceeded);
+}
+
+TEST_F(FrameResidency, WhatIsVisibleStaysWhenTheRestIsTooLarge) {
+    RenderThread thread(provider_, budget(3 * kBytes));
+    std::vector<WantedVolume> wanted;
+    std::vector<TileSpec> tiles;
+    for (int i = 0; i < kVolumes; ++i) {
+        wanted.push_back({{nameOf(i), 0, 0, 0}, WantedPriority::Visible, {}});
+        tiles.push_back(tile(i));
+    }
+    thread.setWanted(wanted);
+    // Six visible volumes, room for two and the small levels of the others: frames at hand settle.
+    std::uint64_t evictions = 0;
+    std::vector<int> levels(kVolumes);
+    for (int round = 0; round < 60; ++round) {
+        const auto frame =
+            thread.submit(frameOf(tiles, LevelChoice::AtHand), FramePriority::Interactive).get();
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            ASSERT_EQ(frame.tiles[i].error, "");
+            levels[i] = frame.tiles[i].level;
+        }
+        ASSERT_LE(thread.residency().residentBytes, 3 * kBytes);
+        if (round == 40) evictions = thread.residency().evictions;
+    }
+    EXPECT_EQ(thread.residency().evictions, evictions) << "no swapping while people interact";
+    EXPECT_GE(std::count(levels.begin(), levels.end(), 0), 2);
+    const auto whole = thread.submit(frameOf(tiles, LevelChoice::Exact), FramePriority::Final).get();
+    for (const auto& pixels : whole.tiles)
+        EXPECT_EQ(pixels.level, 0) << "at rest all are drawn whole, one after another";
+}
+
+TEST_F(FrameResidency, WhatIsWantedSoonIsBroughtInWhileNothingIsDrawn) {
+    RenderThread thread(provider_, {});
+    thread.setWanted(
+        {{{nameOf(1), 0, 0, 0}, WantedPriority::Soon, {}}, {{"nobody", 0, 0, 0}, WantedPriority::Soon, {}}});
+    for (int i = 0; i < 2000 && thread.residency().textures == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(thread.residency().sampleBytes, kBytes);
+    EXPECT_EQ(thread.residency().queuedUploads, 0);
+    EXPECT_EQ(draw(thread, tile(1), LevelChoice::AtHand).level, 0);
+}
+
+TEST_F(FrameResidency, AnUrgentFrameDoesNotWaitForAWholeUpload) {
+    // 16 chunks of 50 ms: 0.8 s to bring in.
+    addVolume(*provider_, "slow", glm::ivec3(256, 256, kDim), ScalarType::F32,
+              [](int x, int, int) { return static_cast<double>(x); });
+    RenderThread thread(provider_, {});
+    ASSERT_EQ(draw(thread, tile(0), LevelChoice::Exact).error, "");
+    provider_->delay = std::chrono::milliseconds(50);
+    auto slow = thread.submit(frameOf({frontTile("slow", 256, 255.0, kPixels)}, LevelChoice::Exact),
+                              FramePriority::Export);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    double longest = 0.0;
+    int frames = 0;
+    while (slow.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        const auto start = std::chrono::steady_clock::now();
+        ASSERT_EQ(draw(thread, tile(0), LevelChoice::AtHand).error, "");
+        longest = std::max(
+            longest,
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        ++frames;
+    }
+    EXPECT_EQ(slow.get().tiles.at(0).error, "");
+    EXPECT_GT(frames, 4);
+    // One chunk before it and one after it, and a loaded machine; the whole upload takes 800 ms.
+    EXPECT_LT(longest, 400.0);
+}
+
+} // namespace
+} // namespace voxsheet
