@@ -36,7 +36,7 @@ struct TilePixels {
     glm::ivec2 size{0};
     std::vector<unsigned char> rgba8; ///< Rgba8: size.x * size.y * 4, top row first
     std::vector<float> rgba32f;       ///< Rgba32F: size.x * size.y * 4, top row first
-    int level = 0;        ///< that was drawn
+    int level = 0;                    ///< that was drawn
     bool standIn = false; ///< AtHand: something was drawn from another level, or without a gradient texture
     bool awaited = false; ///< what the stand-in stands for is being brought in: ask again
     std::string note;     ///< not empty: why a coarser level than asked for is as good as it gets

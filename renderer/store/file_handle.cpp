@@ -58,6 +58,15 @@ void FileHandle::readAll(std::uint64_t offset, std::span<std::byte> out) const {
     }
 }
 
+void FileHandle::dropPages(std::uint64_t offset, std::uint64_t bytes) const {
+    // The kernel leaves pages that are touched only in part.
+    const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    const std::uint64_t begin = offset / page * page;
+    const std::uint64_t end = (offset + bytes + page - 1) / page * page;
+    ::posix_fadvise(descriptor_, static_cast<off_t>(begin), static_cast<off_t>(end - begin),
+                    POSIX_FADV_DONTNEED);
+}
+
 void FileHandle::writeAll(std::uint64_t offset, std::span<const std::byte> bytes) const {
     while (!bytes.empty()) {
         const auto put = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));

@@ -95,6 +95,12 @@ void StoreEntry::readSlices(const VolumeKey& key, int zBegin, int zCount, std::s
     openArrayFile(key).readAll(part.offset + range.offset, out);
 }
 
+void StoreEntry::dropPages(const VolumeKey& key, int zBegin, int zCount) const {
+    const auto range = sliceBytes(*meta_, key, zBegin, zCount);
+    const auto part = arrayLayout(*meta_, key.field).levels[static_cast<std::size_t>(key.level)];
+    openArrayFile(key).dropPages(part.offset + range.offset, range.count);
+}
+
 MinMaxGrid StoreEntry::readMinMax(const VolumeKey& key) const {
     validateVolumeKey(*meta_, key);
     const auto part = arrayLayout(*meta_, key.field).minMax[static_cast<std::size_t>(key.level)];

@@ -29,6 +29,8 @@ public:
     /// As VolumeProvider::readSlices. Throws IoError if the files are gone or became shorter.
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const;
+    /// As VolumeProvider::dropPages.
+    void dropPages(const VolumeKey& key, int zBegin, int zCount) const;
 
     /// Values (after slope and intercept) of the box of samples [low, low + size) of a level, x fastest.
     /// out.size() == size.x * size.y * size.z. Throws as readSlices.

@@ -27,6 +27,10 @@ MinMaxGrid StoreVolumeProvider::readMinMax(const VolumeKey& key) const {
     return entry(key.dataset)->readMinMax(key);
 }
 
+void StoreVolumeProvider::dropPages(const VolumeKey& key, int zBegin, int zCount) const {
+    entry(key.dataset)->dropPages(key, zBegin, zCount);
+}
+
 double StoreVolumeProvider::readValue(const std::string& dataset, int field, int step,
                                       const glm::ivec3& sample) const {
     return entry(dataset)->readValue({dataset, field, step, 0}, sample);

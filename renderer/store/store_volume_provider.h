@@ -19,6 +19,7 @@ public:
     [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override;
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
+    void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
 
     /// The open entry; throws NotFound if the store has none under this key (import the source again),
     /// InvalidInput if it is no key.

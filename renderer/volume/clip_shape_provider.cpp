@@ -37,4 +37,8 @@ MinMaxGrid ClipShapeProvider::readMinMax(const VolumeKey& key) const {
     return providerOf(key.dataset).readMinMax(key);
 }
 
+void ClipShapeProvider::dropPages(const VolumeKey& key, int zBegin, int zCount) const {
+    providerOf(key.dataset).dropPages(key, zBegin, zCount);
+}
+
 } // namespace voxsheet

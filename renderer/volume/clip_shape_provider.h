@@ -20,6 +20,7 @@ public:
     [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override;
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
+    void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
 
 private:
     /// The provider that has the dataset; a clip shape has been sampled when this returns.

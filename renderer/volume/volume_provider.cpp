@@ -33,4 +33,6 @@ ByteRange sliceBytes(const DatasetMeta& meta, const VolumeKey& key, int zBegin, 
     return {static_cast<std::size_t>(zBegin) * slice, static_cast<std::size_t>(zCount) * slice};
 }
 
+void VolumeProvider::dropPages(const VolumeKey&, int, int) const {}
+
 } // namespace voxsheet

@@ -48,6 +48,10 @@ public:
 
     /// Throws as readSlices.
     [[nodiscard]] virtual MinMaxGrid readMinMax(const VolumeKey& key) const = 0;
+
+    /// Tells the operating system that these slices will not be read soon again, so that it need not keep
+    /// them in its page cache. For providers that read files; others do nothing. Throws as readSlices.
+    virtual void dropPages(const VolumeKey& key, int zBegin, int zCount) const;
 };
 
 } // namespace voxsheet

@@ -7,10 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fcntl.h>
 #include <fstream>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
@@ -36,6 +38,44 @@ protected:
 private:
     TemporaryFolder temporary_;
 };
+
+/// Pages of the file that the operating system holds in its cache.
+std::size_t cachedPages(const fs::path& file) {
+    const auto bytes = fs::file_size(file);
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const FileHandle handle(file, O_RDONLY);
+    void* mapped = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, handle.descriptor(), 0);
+    if (mapped == MAP_FAILED) return 0;
+    std::vector<unsigned char> in((bytes + page - 1) / page);
+    ::mincore(mapped, bytes, in.data());
+    ::munmap(mapped, bytes);
+    return static_cast<std::size_t>(
+        std::count_if(in.begin(), in.end(), [](auto p) { return (p & 1U) != 0; }));
+}
+
+TEST_F(StoreTest, DropsThePagesOfSlicesThatAreNotWantedSoon) {
+    const glm::ivec3 dims(256, 256, 16);
+    auto store = std::make_shared<VolumeStore>(folder());
+    StoreWriter writer(*store, sampleMeta("abc", dims));
+    writer.addArray(0, 0, rampSamples(dims));
+    writer.commit();
+    const StoreVolumeProvider volumes(store);
+    std::vector<std::byte> samples(static_cast<std::size_t>(sampleCount(dims)) * 2);
+    const VolumeKey key{"abc", 0, 0, 0};
+    volumes.readSlices(key, 0, dims.z, samples);
+    const auto file = folder() / "abc" / arrayFileName(0, 0);
+    const auto before = cachedPages(file);
+    ASSERT_GT(before, 500U);
+    volumes.dropPages(key, 0, dims.z / 2);
+    const auto half = cachedPages(file);
+    if (half == before) GTEST_SKIP() << "this file system takes no advice about its cache";
+    EXPECT_NEAR(static_cast<double>(before - half), 256.0, 1.0) << "1 MiB in pages of 4 KiB";
+    volumes.dropPages(key, 0, dims.z);
+    EXPECT_LE(cachedPages(file), before - 512);
+    auto again = samples;
+    volumes.readSlices(key, 0, dims.z, again);
+    EXPECT_EQ(again, samples);
+}
 
 TEST_F(StoreTest, GivesWhatTheMemoryProviderGives) {
     const glm::ivec3 dims(37, 20, 18);

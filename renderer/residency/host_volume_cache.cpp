@@ -1,0 +1,172 @@
+#include "residency/host_volume_cache.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace voxsheet {
+
+namespace {
+
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begun) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+}
+
+} // namespace
+
+HostVolumeCache::HostVolumeCache(std::shared_ptr<const VolumeProvider> source,
+                                 const HostCacheOptions& options)
+    : source_(std::move(source)), options_(options), keep_(options.keep) {
+    state_.budgetBytes = options_.budgetBytes;
+}
+
+HostVolumeCache::~HostVolumeCache() = default;
+
+std::shared_ptr<const DatasetMeta> HostVolumeCache::describe(const std::string& dataset) const {
+    return source_->describe(dataset);
+}
+
+void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
+                                 std::span<std::byte> out) const {
+    const auto meta = source_->describe(key.dataset);
+    if (out.size() != sliceBytes(*meta, key, zBegin, zCount).count)
+        throw InvalidInput("slices to read", "the buffer has the wrong size");
+    const int depth = levelDims(meta->grid.dims, key.level).z;
+    const std::size_t slice = sliceBytes(*meta, key, 0, 1).count;
+    const int blockSlices =
+        static_cast<int>(std::clamp(kBlockBytes / slice, std::size_t{1}, static_cast<std::size_t>(depth)));
+    const bool fits = keep_ && slice * static_cast<std::size_t>(depth) <= options_.budgetBytes;
+    for (int z = zBegin; z < zBegin + zCount;) {
+        const int number = z / blockSlices;
+        const int first = number * blockSlices;
+        const int count = std::min(blockSlices, depth - first);
+        const int end = std::min(first + count, zBegin + zCount);
+        const auto part = out.subspan(static_cast<std::size_t>(z - zBegin) * slice,
+                                      static_cast<std::size_t>(end - z) * slice);
+        const BlockKey blockKey{key, number};
+        auto block = find(blockKey);
+        if (!block && fits) {
+            block = readBlock(key, first, count);
+            keep(blockKey, block);
+        }
+        if (block) {
+            std::memcpy(part.data(), block->samples.data() + static_cast<std::size_t>(z - first) * slice,
+                        part.size());
+        } else {
+            const auto begun = Clock::now();
+            source_->readSlices(key, z, end - z, part);
+            countRead(part.size(), millisecondsSince(begun));
+            if (options_.pageCache == PageCacheUse::DropAlways ||
+                (options_.pageCache == PageCacheUse::DropOverBudget && keep_))
+                source_->dropPages(key, z, end - z);
+        }
+        z = end;
+    }
+}
+
+std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::readBlock(const VolumeKey& key, int zBegin,
+                                                                         int zCount) const {
+    auto block = std::make_shared<Block>();
+    block->zBegin = zBegin;
+    block->zCount = zCount;
+    block->samples.resize(sliceBytes(*source_->describe(key.dataset), key, zBegin, zCount).count);
+    block->bytes = block->samples.size();
+    const auto begun = Clock::now();
+    source_->readSlices(key, zBegin, zCount, block->samples);
+    countRead(block->bytes, millisecondsSince(begun));
+    if (options_.pageCache == PageCacheUse::DropAlways) source_->dropPages(key, zBegin, zCount);
+    return block;
+}
+
+MinMaxGrid HostVolumeCache::readMinMax(const VolumeKey& key) const {
+    const BlockKey blockKey{key, kMinMaxBlock};
+    if (const auto found = find(blockKey)) return found->minMax;
+    auto block = std::make_shared<Block>();
+    const auto begun = Clock::now();
+    block->minMax = source_->readMinMax(key);
+    block->bytes = block->minMax.ranges.size() * sizeof(MinMaxGrid::Range);
+    countRead(block->bytes, millisecondsSince(begun));
+    if (keep_ && block->bytes <= options_.budgetBytes) keep(blockKey, block);
+    return block->minMax;
+}
+
+void HostVolumeCache::dropPages(const VolumeKey& key, int zBegin, int zCount) const {
+    source_->dropPages(key, zBegin, zCount);
+}
+
+std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::find(const BlockKey& key) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = blocks_.find(key);
+    if (found == blocks_.end()) {
+        ++state_.misses;
+        return nullptr;
+    }
+    ++state_.hits;
+    order_.splice(order_.begin(), order_, found->second.order);
+    return found->second.block;
+}
+
+void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const {
+    std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>> evicted;
+    {
+        const std::lock_guard lock(mutex_);
+        if (blocks_.count(key) != 0) return; // another thread was faster
+        while (state_.bytes + block->bytes > options_.budgetBytes && !order_.empty()) {
+            const auto oldest = blocks_.find(order_.back());
+            state_.bytes -= oldest->second.block->bytes;
+            ++state_.evictions;
+            evicted.emplace_back(oldest->first, std::move(oldest->second.block));
+            blocks_.erase(oldest);
+            order_.pop_back();
+        }
+        order_.push_front(key);
+        blocks_.emplace(key, Kept{block, order_.begin()});
+        state_.bytes += block->bytes;
+    }
+    if (options_.pageCache == PageCacheUse::DropOverBudget) dropOf(evicted);
+}
+
+void HostVolumeCache::dropOf(
+    const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const {
+    for (const auto& [key, block] : evicted) {
+        if (key.block == kMinMaxBlock) continue;
+        try {
+            source_->dropPages(key.volume, block->zBegin, block->zCount);
+        } catch (const Error&) {
+            continue; // The dataset is gone, and its pages with it.
+        }
+    }
+}
+
+void HostVolumeCache::countRead(std::uint64_t bytes, double ms) const {
+    const std::lock_guard lock(mutex_);
+    state_.diskBytes += bytes;
+    state_.diskMs += ms;
+}
+
+void HostVolumeCache::forget(const std::string& dataset) {
+    const std::lock_guard lock(mutex_);
+    for (auto kept = blocks_.begin(); kept != blocks_.end();) {
+        if (kept->first.volume.dataset != dataset) {
+            ++kept;
+            continue;
+        }
+        state_.bytes -= kept->second.block->bytes;
+        order_.erase(kept->second.order);
+        kept = blocks_.erase(kept);
+    }
+}
+
+HostCacheState HostVolumeCache::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+} // namespace voxsheet

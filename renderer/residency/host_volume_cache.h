@@ -1,0 +1,85 @@
+// Samples in host memory, up to a budget: what was read before need not be read from disk again.
+#pragma once
+
+#include "residency/host_cache_state.h"
+#include "volume/volume_provider.h"
+
+#include <atomic>
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace voxsheet {
+
+/// When the operating system is told to give up its own copy (the page cache) of what was read.
+enum class PageCacheUse {
+    Keep,           ///< never
+    DropOverBudget, ///< of what this cache does not keep, or not any more
+    DropAlways      ///< of everything that was read, at once: then this cache is all the memory there is
+};
+
+struct HostCacheOptions {
+    std::uint64_t budgetBytes = 0; ///< 0: nothing is kept
+    PageCacheUse pageCache = PageCacheUse::Keep;
+    bool keep = true; ///< false: nothing is kept until keepFromNowOn()
+};
+
+/// A provider in front of another one. Samples are kept in blocks of whole slices, about 1 MiB each, and
+/// min-max grids whole; the least recently used go first. A level that is larger than the budget is read
+/// block by block and not kept, so that it does not push out everything else. Thread-safe, if the source is;
+/// two threads that miss the same block both read it. Memory beyond the budget: one block per reading thread.
+class HostVolumeCache : public VolumeProvider {
+public:
+    /// \param source  not null
+    HostVolumeCache(std::shared_ptr<const VolumeProvider> source, const HostCacheOptions& options);
+    ~HostVolumeCache() override;
+
+    [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override;
+    void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
+    [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
+    void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
+
+    /// While all that is looked at fits on the GPU, a second copy in host memory is of no use.
+    void keepFromNowOn() { keep_ = true; }
+    void forget(const std::string& dataset);
+    [[nodiscard]] HostCacheState state() const;
+
+private:
+    struct BlockKey {
+        VolumeKey volume;
+        int block = 0; ///< number of the run of slices; kMinMaxBlock: the min-max grid
+
+        auto operator<=>(const BlockKey&) const = default;
+    };
+    struct Block {
+        std::vector<std::byte> samples;
+        MinMaxGrid minMax;
+        int zBegin = 0;
+        int zCount = 0;
+        std::uint64_t bytes = 0;
+    };
+    struct Kept {
+        std::shared_ptr<const Block> block;
+        std::list<BlockKey>::iterator order;
+    };
+    static constexpr int kMinMaxBlock = -1;
+
+    [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
+    void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
+    [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;
+    void countRead(std::uint64_t bytes, double ms) const;
+    void dropOf(const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const;
+
+    std::shared_ptr<const VolumeProvider> source_;
+    HostCacheOptions options_;
+    std::atomic<bool> keep_;
+    mutable std::mutex mutex_;
+    mutable std::map<BlockKey, Kept> blocks_;
+    mutable std::list<BlockKey> order_; ///< most recently used first
+    mutable HostCacheState state_;
+};
+
+} // namespace voxsheet

@@ -1,0 +1,197 @@
+#include "residency/host_volume_cache.h"
+
+#include "base/errors.h"
+#include "volume/memory_volume_provider.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <random>
+#include <thread>
+
+namespace voxsheet {
+namespace {
+
+const glm::ivec3 kDims(256, 128, 80); ///< U16: 64 KiB a slice, 16 slices a block, five blocks
+constexpr std::uint64_t kSlice = 256 * 128 * 2;
+constexpr std::uint64_t kLevel = kSlice * 80;
+
+/// Counts what is read from it and what it is told to drop.
+class Disk : public VolumeProvider {
+public:
+    explicit Disk(int volumes) {
+        for (int i = 0; i < volumes; ++i) {
+            DatasetMeta meta;
+            meta.key = nameOf(i);
+            meta.grid.dims = kDims;
+            auto& field = meta.fields.emplace_back();
+            field.name = "ramp";
+            field.storedType = ScalarType::U16;
+            std::vector<unsigned short> samples(static_cast<std::size_t>(sampleCount(kDims)));
+            for (std::size_t s = 0; s < samples.size(); ++s)
+                samples[s] = static_cast<unsigned short>(s / 7 + static_cast<std::size_t>(i) * 1000);
+            std::vector<std::byte> bytes(samples.size() * 2);
+            std::memcpy(bytes.data(), samples.data(), bytes.size());
+            memory_.add(std::move(meta), {std::move(bytes)});
+        }
+    }
+    static std::string nameOf(int i) { return "v" + std::to_string(i); }
+
+    std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override {
+        return memory_.describe(dataset);
+    }
+    void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override {
+        if (broken) throw IoError(key.dataset, "it is shorter than it was when it was written");
+        bytesRead += out.size();
+        memory_.readSlices(key, zBegin, zCount, out);
+    }
+    MinMaxGrid readMinMax(const VolumeKey& key) const override {
+        ++gridsRead;
+        return memory_.readMinMax(key);
+    }
+    void dropPages(const VolumeKey&, int, int zCount) const override { slicesDropped += zCount; }
+
+    mutable std::atomic<std::uint64_t> bytesRead{0};
+    mutable std::atomic<int> gridsRead{0};
+    mutable std::atomic<int> slicesDropped{0};
+    std::atomic<bool> broken{false};
+
+private:
+    MemoryVolumeProvider memory_;
+};
+
+std::vector<std::byte> read(const VolumeProvider& volumes, const VolumeKey& key, int z, int count) {
+    std::vector<std::byte> out(kSlice * static_cast<std::size_t>(count));
+    volumes.readSlices(key, z, count, out);
+    return out;
+}
+
+std::vector<std::byte> readLevel(const VolumeProvider& volumes, int volume) {
+    return read(volumes, {Disk::nameOf(volume), 0, 0, 0}, 0, kDims.z);
+}
+
+TEST(HostVolumeCache, ReadsFromDiskOnce) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel});
+    const VolumeKey key{"v0", 0, 0, 0};
+    for (const auto& [z, count] : {std::pair(0, 80), {3, 1}, {15, 2}, {79, 1}, {10, 40}})
+        EXPECT_EQ(read(cache, key, z, count), read(*disk, key, z, count)) << z << " + " << count;
+    EXPECT_EQ(cache.state().diskBytes, kLevel);
+    EXPECT_EQ(cache.state().bytes, kLevel);
+    EXPECT_EQ(cache.state().misses, 5U);
+    EXPECT_EQ(cache.state().hits, 1U + 2U + 1U + 4U);
+    const auto grid = cache.readMinMax(key);
+    EXPECT_EQ(cache.readMinMax(key).ranges.size(), grid.ranges.size());
+    EXPECT_EQ(disk->gridsRead, 1);
+    EXPECT_EQ(cache.state().bytes, kLevel + grid.ranges.size() * sizeof(MinMaxGrid::Range));
+    EXPECT_GE(cache.state().diskMs, 0.0);
+}
+
+TEST(HostVolumeCache, WhatIsOverTheBudgetIsReadAgain) {
+    const auto disk = std::make_shared<Disk>(3);
+    HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel});
+    for (int round = 0; round < 2; ++round)
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_EQ(readLevel(cache, i), readLevel(*disk, i));
+            EXPECT_LE(cache.state().bytes, 2 * kLevel);
+        }
+    EXPECT_EQ(cache.state().diskBytes, 6 * kLevel) << "the paper's second transition: each time from disk";
+    EXPECT_GT(cache.state().evictions, 0U);
+    const auto before = cache.state().diskBytes;
+    (void)readLevel(cache, 2);
+    EXPECT_EQ(cache.state().diskBytes, before) << "the last two are there";
+    cache.forget("v2");
+    EXPECT_EQ(cache.state().bytes, kLevel);
+    (void)readLevel(cache, 2);
+    EXPECT_EQ(cache.state().diskBytes, before + kLevel);
+}
+
+TEST(HostVolumeCache, ALevelLargerThanTheBudgetGoesThroughWithoutBeingHeld) {
+    const auto disk = std::make_shared<Disk>(2);
+    HostVolumeCache cache(disk, {.budgetBytes = kLevel - 1});
+    EXPECT_EQ(readLevel(cache, 0), readLevel(*disk, 0));
+    EXPECT_EQ(cache.state().bytes, 0U);
+    EXPECT_EQ(cache.state().diskBytes, kLevel);
+    // Its pyramid is small enough.
+    std::vector<std::byte> coarse(static_cast<std::size_t>(sampleCount(levelDims(kDims, 1))) * 2);
+    cache.readSlices({"v0", 0, 0, 1}, 0, levelDims(kDims, 1).z, coarse);
+    cache.readSlices({"v0", 0, 0, 1}, 0, levelDims(kDims, 1).z, coarse);
+    EXPECT_EQ(cache.state().bytes, coarse.size());
+    EXPECT_EQ(cache.state().diskBytes, kLevel + coarse.size());
+}
+
+TEST(HostVolumeCache, KeepsNothingUntilItIsOfUse) {
+    const auto disk = std::make_shared<Disk>(1);
+    HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel, .keep = false});
+    (void)readLevel(cache, 0);
+    EXPECT_EQ(cache.state().bytes, 0U);
+    cache.keepFromNowOn();
+    (void)readLevel(cache, 0);
+    EXPECT_EQ(cache.state().bytes, kLevel);
+}
+
+TEST(HostVolumeCache, DropsPagesWhenAskedTo) {
+    const auto dropped = [](PageCacheUse use, std::uint64_t budget, int levels) {
+        const auto disk = std::make_shared<Disk>(3);
+        const HostVolumeCache cache(disk, {.budgetBytes = budget, .pageCache = use});
+        for (int i = 0; i < levels; ++i)
+            (void)readLevel(cache, i);
+        return disk->slicesDropped.load();
+    };
+    EXPECT_EQ(dropped(PageCacheUse::Keep, kLevel, 3), 0);
+    EXPECT_EQ(dropped(PageCacheUse::DropAlways, 2 * kLevel, 2), 2 * 80);
+    EXPECT_EQ(dropped(PageCacheUse::DropOverBudget, 2 * kLevel, 2), 0) << "within the budget";
+    EXPECT_EQ(dropped(PageCacheUse::DropOverBudget, 2 * kLevel, 3), 80) << "of what was evicted";
+    EXPECT_EQ(dropped(PageCacheUse::DropOverBudget, kLevel / 2, 1), 80) << "of what is not kept";
+}
+
+TEST(HostVolumeCache, AFailedReadLeavesNothingBehind) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel});
+    disk->broken = true;
+    EXPECT_THROW((void)readLevel(cache, 0), IoError);
+    EXPECT_EQ(cache.state().bytes, 0U);
+    disk->broken = false;
+    EXPECT_EQ(readLevel(cache, 0), readLevel(*disk, 0));
+    std::vector<std::byte> wrong(10);
+    EXPECT_THROW(cache.readSlices({"v0", 0, 0, 0}, 0, 1, wrong), InvalidInput);
+    EXPECT_THROW(cache.readSlices({"v0", 0, 0, 0}, 79, 2, wrong), InvalidInput);
+    EXPECT_THROW(cache.readSlices({"v0", 0, 0, 9}, 0, 1, wrong), NotFound);
+    EXPECT_THROW((void)cache.describe("nobody"), NotFound);
+}
+
+TEST(HostVolumeCache, ThreadsReadTheSameBytesWithinTheBudget) {
+    const auto disk = std::make_shared<Disk>(4);
+    HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel, .pageCache = PageCacheUse::DropOverBudget});
+    std::vector<std::vector<std::byte>> expected;
+    for (int i = 0; i < 4; ++i)
+        expected.push_back(readLevel(*disk, i));
+    std::atomic<int> wrong{0};
+    std::vector<std::thread> threads;
+    for (unsigned t = 0; t < 4; ++t) {
+        threads.emplace_back([&, t] {
+            std::mt19937 random(t);
+            for (int step = 0; step < 150; ++step) {
+                const auto volume = static_cast<int>(random() % 4);
+                const auto z = static_cast<int>(random() % 80);
+                const auto count = 1 + static_cast<int>(random() % static_cast<unsigned>(80 - z));
+                const auto got = read(cache, {Disk::nameOf(volume), 0, 0, 0}, z, count);
+                const auto* want =
+                    expected[static_cast<std::size_t>(volume)].data() + static_cast<std::size_t>(z) * kSlice;
+                if (std::memcmp(got.data(), want, got.size()) != 0) ++wrong;
+                if (cache.state().bytes > 2 * kLevel) ++wrong;
+                if (step % 50 == 49) cache.forget(Disk::nameOf(volume));
+            }
+        });
+    }
+    for (auto& thread : threads)
+        thread.join();
+    EXPECT_EQ(wrong, 0);
+    for (int i = 0; i < 4; ++i)
+        cache.forget(Disk::nameOf(i));
+    EXPECT_EQ(cache.state().bytes, 0U) << "the sum over what is kept";
+}
+
+} // namespace
+} // namespace voxsheet
