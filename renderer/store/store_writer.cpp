@@ -35,16 +35,29 @@ StoreWriter::StoreWriter(const VolumeStore& store, DatasetMeta meta) : store_(st
         field.steps.resize(meta_.times.size());
     written_.resize(meta_.fields.size() * meta_.times.size());
     store_.makeRoom(entryBytes(meta_));
+    while (!claimNewFolder()) {
+    }
+}
+
+bool StoreWriter::claimNewFolder() {
     temporary_ = store_.newTemporaryFolder();
+    const auto lockFile = temporary_ / kLockFile;
     try {
-        lock_ = FileHandle(temporary_ / kLockFile, O_RDWR | O_CREAT | O_EXCL);
+        lock_ = FileHandle(lockFile, O_RDWR | O_CREAT | O_EXCL);
+        // Between the making of the file and the locking of it a process that tidies the store may have taken
+        // the folder for a leftover: it holds the lock, or has removed the folder by now.
         // Shared: readers that find the entry right after the rename must not be turned away.
-        if (!lock_.tryLock(false)) throw IoError(temporary_.string(), "another process holds its lock");
+        if (lock_.tryLock(false) && lock_.isStillAt(lockFile)) return true;
+    } catch (const NotFound&) {
+        // Removed even before the file was made.
     } catch (...) {
         std::error_code ignored;
         std::filesystem::remove_all(temporary_, ignored);
         throw;
     }
+    std::error_code ignored;
+    std::filesystem::remove_all(temporary_, ignored);
+    return false;
 }
 
 StoreWriter::~StoreWriter() {

@@ -35,6 +35,9 @@ public:
     void commit();
 
 private:
+    /// Returns false if another process took the new folder for a leftover of a crashed one: then there is to
+    /// be another.
+    bool claimNewFolder();
     void writeMeta() const;
     void publish();
 

@@ -134,6 +134,8 @@ std::optional<std::string> StreamClient::next() {
             // More to do: the pictures in between were not final ones, or only a chunk of the final ones was
             // drawn.
             if (!finished) dirty_ = true;
+            if (finished && !interactive)
+                push({{"type", "rest"}, {"view", view.id}, {"version", work.workbookVersion}});
             if (finished && interactive) {
                 wake_.wait_until(lock, lastChange_ + kRestAfter, [this] { return closed_ || dirty_; });
                 dirty_ = true;
@@ -179,6 +181,7 @@ StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) 
     Plan plan;
     plan.interactive = interactive;
     const auto workbook = engine_.snapshot();
+    plan.workbookVersion = workbook->version;
     for (const auto& tile : view.tiles)
         addTile(plan, *workbook, view, tile);
     for (auto& pending : plan.tiles)

@@ -48,6 +48,7 @@ private:
         std::vector<Pending> tiles;
         std::vector<engine::PreparedTile> notices; ///< cells without a picture whose state changed
         bool interactive = false;
+        std::uint64_t workbookVersion = 0;
         int step = 0;
         double pixels = 0.0;
         std::size_t finalCells = 0;

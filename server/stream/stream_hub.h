@@ -2,7 +2,9 @@
 // unacknowledged.
 //
 // Message = u32le headerBytes, u32le payloadBytes, header (UTF-8 JSON), payload (the encoded picture, or
-// nothing).
+// nothing). Header types: hello, workbook, datasets (something changed: ask again), tile and cell (in frames,
+// the last of each with frameEnd), status (figures of the last frame), rest {view, version} (nothing more to
+// send for this view and version of the workbook: every tile is final), ping.
 #pragma once
 
 #include "engine/engine.h"

@@ -8,7 +8,7 @@ const packages = process.env.VOXSHEET_PAGE_PACKAGES ?? here;
 const { chromium } = createRequire(path.join(packages, "package.json"))("playwright-core");
 
 /** Pictures may take long where the machine is busy; a hang is still found. */
-export const patienceMs = 45_000;
+export const patienceMs = Number(process.env.VOXSHEET_PATIENCE_MS ?? 45_000);
 
 export async function openBrowser() {
     return chromium.launch({
@@ -45,24 +45,26 @@ export async function waitUntil(page, condition, argument) {
     }
 }
 
-/** Every given cell shows its final picture, the server knows the newest view, and nothing has come for a while. */
+/** Every given cell shows its final picture of the newest view and workbook: the server has said that it has nothing more to send. */
 export async function settled(page, cells) {
     await waitUntil(
         page,
         (wanted) => {
-            const { stats, app, store } = window.voxsheet;
-            const { tiles, page: view, connection } = store.get();
-            const said = app.sender.idleSince();
-            if (connection.phase !== "live" || view.moving || said === null) return false;
-            // Longer than the server waits before it draws final pictures, with room for a busy machine.
-            const quietMs = performance.now() - Math.max(said, stats.recent.at(-1)?.at ?? 0);
-            return quietMs > 700 && wanted.every((cell) => tiles[cell]?.painted && tiles[cell].final);
+            const { app, store } = window.voxsheet;
+            const { tiles, page: view, connection, book } = store.get();
+            const { phase, rest } = connection;
+            if (phase !== "live" || !rest || view.moving || Object.keys(view.live).length > 0) return false;
+            if (rest.view !== app.sender.viewTaken() || rest.version !== book.book.version) return false;
+            return wanted.every((cell) => tiles[cell]?.painted && tiles[cell].final);
         },
         cells,
     );
 }
 
-/** A cell's picture as it is on the canvas: size, a hash of its bytes, and how many different colours it has. */
+/**
+ * A cell's picture as it is on the canvas: size, a hash of its bytes, how many different colours it has, and how many of its
+ * pixels differ from the background (that of the upper left corner).
+ */
 export async function look(page, cell) {
     return page.evaluate((name) => {
         const canvas = document.querySelector(`[data-picture-of="${name}"] canvas`);
@@ -70,19 +72,31 @@ export async function look(page, cell) {
         const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
         let hash = 2166136261;
         const colours = new Set();
+        let covered = 0;
         for (let i = 0; i < data.length; i += 4) {
             const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
             colours.add(colour);
+            if (data[i] !== data[0] || data[i + 1] !== data[1] || data[i + 2] !== data[2]) ++covered;
             hash = Math.imul(hash ^ colour, 16777619) >>> 0;
         }
-        return { width, height, hash, colours: colours.size };
+        return { width, height, hash, colours: colours.size, covered };
     }, cell);
 }
 
 /** Drags on a cell's picture in small steps, as a hand does. Returns how long it took and how many frames came meanwhile. */
-export async function drag(page, cell, { dx = 120, dy = 40, steps = 40, stepMs = 25, button = "left", keys = [] } = {}) {
-    const box = await page.locator(`[data-picture-of="${cell}"]`).boundingBox();
-    const start = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+export async function drag(page, cell, how = {}) {
+    return dragFrom(page, await middleOf(page.locator(`[data-picture-of="${cell}"]`)), how);
+}
+
+/** In the window's coordinates; brought into sight first. */
+export async function middleOf(locator) {
+    await locator.scrollIntoViewIfNeeded();
+    const box = await locator.boundingBox();
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** As drag(), from a place of the page. */
+export async function dragFrom(page, start, { dx = 120, dy = 40, steps = 40, stepMs = 25, button = "left", keys = [] } = {}) {
     await page.mouse.move(start.x, start.y);
     for (const key of keys) await page.keyboard.down(key);
     const began = await page.evaluate(() => performance.now());
@@ -131,4 +145,38 @@ export async function typeFormula(page, cell, text) {
     await page.keyboard.press("F2");
     await page.locator("#formula-input").fill(text);
     await page.keyboard.press("Enter");
+}
+
+/** What a style key says in a cell, and which layer it comes from. */
+export async function styleOf(page, cell, key) {
+    return page.evaluate(
+        ([name, wanted]) => {
+            const { book } = window.voxsheet.store.get().book;
+            return book.sheets[0].cells.find((each) => each.cell === name).style[wanted];
+        },
+        [cell, key],
+    );
+}
+
+/** Until a style key says something else in a cell than before (as JSON). Returns what it says then. */
+export async function waitForStyle(page, cell, key, before) {
+    const old = JSON.stringify(before);
+    await waitUntil(
+        page,
+        ([name, wanted, text]) => {
+            const { book } = window.voxsheet.store.get().book;
+            return JSON.stringify(book.sheets[0].cells.find((each) => each.cell === name).style[wanted].value) !== text;
+        },
+        [cell, key, old],
+    );
+    return (await styleOf(page, cell, key)).value;
+}
+
+/** A number that the server counts (GET /metrics). */
+export async function metric(page, name) {
+    return page.evaluate(async (wanted) => {
+        const text = await (await fetch("metrics")).text();
+        const line = text.split("\n").find((each) => each.startsWith(`${wanted} `));
+        return Number(line.slice(wanted.length + 1));
+    }, name);
 }

@@ -17,17 +17,35 @@ export function ball(n, centre, radius = 0.3) {
     return Buffer.concat([Buffer.from(header, "latin1"), data]);
 }
 
+/** Bytes of an n^3 32-bit float NRRD with values of both signs: a soft ball of +1 and, on the other side, one of -1. */
+export function twoSigns(n) {
+    const header = `NRRD0004\ntype: float\nendian: little\ndimension: 3\nsizes: ${n} ${n} ${n}\nspacings: 1 1 1\nencoding: raw\n\n`;
+    const data = Buffer.alloc(4 * n * n * n);
+    const soft = (x, y, z, centre) => Math.exp(-((x - centre) ** 2 + (y - 0.5) ** 2 + (z - 0.5) ** 2) / 0.15 ** 2);
+    let at = 0;
+    for (let z = 0; z < n; ++z) {
+        for (let y = 0; y < n; ++y) {
+            for (let x = 0; x < n; ++x) {
+                const value = soft(x / n, y / n, z / n, 0.7) - soft(x / n, y / n, z / n, 0.3);
+                at = data.writeFloatLE(value, at);
+            }
+        }
+    }
+    return Buffer.concat([Buffer.from(header, "latin1"), data]);
+}
+
 /** A header that promises far more than there is. */
 export function truncated() {
     return Buffer.from("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 64 64 64\nencoding: raw\n\nshort", "latin1");
 }
 
-export async function writeBalls(folder, count, n) {
+/** \param spread  how far from the middle the balls stand, in parts of the box */
+export async function writeBalls(folder, count, n, spread = 0.2) {
     const files = [];
     for (let i = 0; i < count; ++i) {
         const turn = (2 * Math.PI * i) / Math.max(1, count);
         const file = `${folder}/ball${i + 1}.nrrd`;
-        await writeFile(file, ball(n, [0.5 + 0.2 * Math.cos(turn), 0.5 + 0.2 * Math.sin(turn), 0.35 + 0.05 * i]));
+        await writeFile(file, ball(n, [0.5 + spread * Math.cos(turn), 0.5 + spread * Math.sin(turn), 0.35 + 0.05 * i]));
         files.push(file);
     }
     return files;

@@ -73,3 +73,10 @@ test("window and level: across widens about the centre, upwards raises", () => {
     const narrow = windowLevel({ low: 0, high: 100 }, -50, 0);
     assert.ok(narrow.high > narrow.low);
 });
+
+test("of mirrored isovalues as drawn, only those remain that make the others", () => {
+    assert.deepEqual(withoutMirrored([0.5, -0.5, 2, -2]), [0.5, 2]);
+    assert.deepEqual(withoutMirrored([-1, 1]), [-1]);
+    assert.deepEqual(withoutMirrored([0, 3]), [0, 3]);
+    assert.deepEqual(withoutMirrored([0]), [0]);
+});

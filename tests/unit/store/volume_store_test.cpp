@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fcntl.h>
 #include <fstream>
@@ -268,6 +269,27 @@ TEST_F(StoreTest, ALiveWritersFolderIsLeftAlone) {
     { const VolumeStore other(folder()); }
     writer.commit();
     EXPECT_NE(store.open("abc"), nullptr);
+}
+
+/// Every importer that starts tidies the store: never what another one is about to write into.
+TEST_F(StoreTest, TidyingNeverTakesAFolderThatIsJustBeingMade) {
+    const VolumeStore store(folder());
+    std::atomic<bool> done{false};
+    std::vector<std::thread> tidiers;
+    for (int i = 0; i < 4; ++i)
+        tidiers.emplace_back([&] {
+            while (!done)
+                (void)VolumeStore(folder());
+        });
+    EXPECT_NO_THROW({
+        for (int i = 0; i < 300; ++i) {
+            StoreWriter writer(store, sampleMeta("k" + std::to_string(i)));
+            writer.addArray(0, 0, rampSamples({20, 9, 6}));
+        }
+    });
+    done = true;
+    for (auto& tidier : tidiers)
+        tidier.join();
 }
 
 TEST_F(StoreTest, TheFirstOfTwoEqualWritersWins) {

@@ -180,6 +180,14 @@ export interface ColourBarTick {
     label: string;
 }
 
+export interface BarIsovalue {
+    value: number;
+    /** 0 to 1 along the bar; null: outside it. */
+    position: number | null;
+    colour: [number, number, number];
+    opacity: number;
+}
+
 export interface ColourBarInfo {
     stops: [number, number, number, number, number][];
     low: number;
@@ -190,8 +198,8 @@ export interface ColourBarInfo {
     shared?: boolean;
     /** The opacity curve as drawn, also when it was chosen from the data. */
     opacity?: [number, number][];
-    /** Of isosurfaces, also when they were chosen from the data. */
-    isovalues?: number[];
+    /** Of the isosurfaces as drawn, also when they were chosen from the data, with those that the mirror adds. */
+    isovalues?: BarIsovalue[];
     ticks: ColourBarTick[];
 }
 

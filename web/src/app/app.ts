@@ -6,7 +6,7 @@ import { formatAddress } from "../model/address";
 import { lookFromText, viewOverrides } from "../model/look";
 import { newAppStore, type AppStore } from "../state/app_state";
 import { cellOf, currentSheet } from "../state/book";
-import type { StreamStatus } from "../state/connection";
+import type { StreamRest, StreamStatus } from "../state/connection";
 import type { TileInfo } from "../state/tiles";
 import type { StreamMessage } from "../stream/frame_decoder";
 import { StreamClient } from "../stream/stream_client";
@@ -143,6 +143,11 @@ export class App {
                 break;
             case "status":
                 this.store.dispatch({ type: "connection/status", status: header as unknown as StreamStatus });
+                break;
+            case "rest":
+                this.painter.whenPainted(() =>
+                    this.store.dispatch({ type: "connection/rest", rest: header as unknown as StreamRest }),
+                );
                 break;
             default:
                 // "ping", and messages of later versions.

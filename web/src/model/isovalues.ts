@@ -10,6 +10,11 @@ export function isovaluesOf(value: StyleValue | undefined): number[] | null {
     return rowsOf(value, 1)?.map((row) => row[0]!) ?? null;
 }
 
+/** Of the values drawn, those that the mirror makes from an earlier one are no values of their own. */
+export function withoutMirrored(drawn: readonly number[]): number[] {
+    return drawn.filter((value, i) => !drawn.slice(0, i).includes(-value));
+}
+
 export interface IsovalueHandle {
     /** Which of the values it moves. */
     index: number;

@@ -13,6 +13,12 @@ export interface StreamStatus {
     budgetBytes: number;
 }
 
+/** The server has nothing more to send for a view of the page and a version of the workbook. */
+export interface StreamRest {
+    view: number;
+    version: number;
+}
+
 export interface ConnectionState {
     phase: ConnectionPhase;
     message: string;
@@ -24,6 +30,8 @@ export interface ConnectionState {
     presets: Preset[];
     latencyMs: number | null;
     status: StreamStatus | null;
+    /** The last time that everything was on show; null in a stream that has not come so far. */
+    rest: StreamRest | null;
 }
 
 export const noConnection: ConnectionState = {
@@ -36,13 +44,15 @@ export const noConnection: ConnectionState = {
     presets: [],
     latencyMs: null,
     status: null,
+    rest: null,
 };
 
 export type ConnectionAction =
     | { type: "connection/phase"; phase: ConnectionPhase; message?: string }
     | { type: "connection/about"; info: ServerInfo; keys: StyleKey[]; maps: ColourMap[]; presets: Preset[] }
     | { type: "connection/latency"; ms: number }
-    | { type: "connection/status"; status: StreamStatus };
+    | { type: "connection/status"; status: StreamStatus }
+    | { type: "connection/rest"; rest: StreamRest };
 
 /** Smooths over about eight answers: a figure that people can read. */
 const latencyWeight = 1 / 8;
@@ -52,7 +62,8 @@ export function reduceConnection(state: ConnectionState, action: ConnectionActio
         case "connection/phase": {
             if (state.phase === action.phase && state.message === (action.message ?? "")) return state;
             const opened = action.phase === "live" && state.phase !== "live" ? 1 : 0;
-            return { ...state, phase: action.phase, message: action.message ?? "", openings: state.openings + opened };
+            const rest = opened ? null : state.rest;
+            return { ...state, phase: action.phase, message: action.message ?? "", openings: state.openings + opened, rest };
         }
         case "connection/about":
             return { ...state, info: action.info, keys: action.keys, maps: action.maps, presets: action.presets };
@@ -62,5 +73,7 @@ export function reduceConnection(state: ConnectionState, action: ConnectionActio
         }
         case "connection/status":
             return { ...state, status: action.status };
+        case "connection/rest":
+            return { ...state, rest: action.rest };
     }
 }

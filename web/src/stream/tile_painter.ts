@@ -96,6 +96,11 @@ export class TilePainter {
         });
     }
 
+    /** Once everything that has come so far is on its canvas. */
+    whenPainted(step: () => void): void {
+        this.inOrder(this.opening, step);
+    }
+
     private inOrder(opening: number, step: () => void | Promise<void>): void {
         this.order = this.order.then(() => (opening === this.opening ? step() : undefined));
     }

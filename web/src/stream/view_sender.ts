@@ -33,7 +33,6 @@ export class ViewSender {
     private ack: number | null = null;
     private underWay = 0;
     private frameRequested = false;
-    private lastAnswerAt = 0;
 
     constructor(
         private readonly currentView: () => ViewBody,
@@ -56,9 +55,9 @@ export class ViewSender {
         return this.stream;
     }
 
-    /** When the server took the last of what there was to say (performance.now()); null while something is on its way. */
-    idleSince(): number | null {
-        return this.underWay > 0 || this.frameRequested || this.ack !== null ? null : this.lastAnswerAt;
+    /** The view that the server took last; null while something is on its way. */
+    viewTaken(): number | null {
+        return this.underWay > 0 || this.frameRequested || this.viewChanged || this.ack !== null ? null : this.viewId;
     }
 
     /** Something that the view is made of may have changed. */
@@ -119,7 +118,6 @@ export class ViewSender {
             if (stream === this.stream) this.events.failed();
         } finally {
             --this.underWay;
-            this.lastAnswerAt = performance.now();
             this.flush();
         }
     }

@@ -3,7 +3,7 @@ import { useMemo, useRef } from "preact/hooks";
 import type { CellState, StylePatch } from "../api/types";
 import { followPointer } from "../input/pointer_drag";
 import { formatNumber, withUnit } from "../model/format";
-import { isovalueHandles, isovaluesOf, mostIsovalues, withHandleAt, type IsovalueHandle } from "../model/isovalues";
+import { isovalueHandles, isovaluesOf, mostIsovalues, withHandleAt, withoutMirrored, type IsovalueHandle } from "../model/isovalues";
 import { roundedValue, valueAt, type Scale } from "../model/transfer";
 import { useApp, useSelect } from "./app_context";
 import { histogramHeight, histogramPath, histogramWidth, RangeStrip, useHistogram } from "./Histogram";
@@ -20,8 +20,9 @@ export function IsovalueEditor({ cell }: { cell: CellState }) {
     if (!bar) return null;
     const scale = bar.scale as Scale;
     const own = isovaluesOf(live ?? cell.style[key]?.value);
-    const values = own ?? bar.isovalues ?? [];
     const mirror = cell.style["isosurface.mirror"]?.value === "on";
+    const drawn = (bar.isovalues ?? []).map(({ value }) => value);
+    const values = own ?? (mirror ? withoutMirrored(drawn) : drawn);
     const handles = isovalueHandles(values, mirror, bar, scale);
 
     const positionAt = (event: MouseEvent): number => {
