@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { withoutMirrored } from "../src/model/isovalues";
 import {
     addedPoint,
     movedPoint,
