@@ -1,12 +1,22 @@
 #include "stages/banded_dispatch.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace voxsheet {
 namespace {
 
 constexpr int kGroupPixels = 8;
 constexpr double kSamplesPerDispatch = 0x1p29;
+
+/// Near the golden section of `rows`, so that any run of multiples of it is spread evenly; no common divisor
+/// with `rows`.
+int rowStride(int rows) {
+    int stride = std::max(1, static_cast<int>(0.618 * rows));
+    while (std::gcd(stride, rows) != 1)
+        ++stride;
+    return stride;
+}
 
 } // namespace
 
@@ -22,8 +32,9 @@ void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double 
     for (int firstRow = 0; firstRow < sizePixels.y; firstRow += band) {
         const int rows = std::min(band, sizePixels.y - firstRow);
         program.set("firstRow", firstRow);
-        program.dispatch(
-            {(sizePixels.x + kGroupPixels - 1) / kGroupPixels, (rows + kGroupPixels - 1) / kGroupPixels, 1});
+        const auto groups = (glm::ivec2(sizePixels.x, rows) + kGroupPixels - 1) / kGroupPixels;
+        program.set("rowStride", rowStride(groups.y));
+        program.dispatch({groups, 1});
         if (firstRow + band < sizePixels.y) glFlush();
     }
     gpu::storageBarrier();

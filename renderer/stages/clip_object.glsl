@@ -12,10 +12,12 @@ uniform vec2 measureFromTexel;   // measure = texel * x + y: a distance, >= 0 wh
 uniform float nearestSampleSlack; // how far interpolants, or nearest samples, may differ from true distances, twice
 uniform mat3 viewFromClipGradient;
 uniform vec3 clipTexelSize; // 1 / samples per axis
+uniform vec3 clipKeptLow; // nothing is kept outside of this box in the frame of the distances
+uniform vec3 clipKeptHigh;
 
 // How much an interpolated distance can change over a length: true distances change by at most that length, and an
 // interpolant lies within a sample's spacing of them; computed distances are allowed a tenth more.
-float largestChange(float length) { return 1.1 * length + nearestSampleSlack; }
+float largestChange(float length) { return min(1.1 * length + nearestSampleSlack, 1.7321 * length); }
 
 // The ray in the frame of the distances.
 struct ClipRay {
@@ -44,10 +46,29 @@ float keptMeasure(ClipRay ray, float depth) {
     return distanceTexel(ray.origin + depth * ray.direction) * measureFromTexel.x + measureFromTexel.y;
 }
 
+// The depths between which all lies that is kept; x > y: nothing.
+vec2 clipKeptSpan(ClipRay ray) {
+    vec3 safe = mix(ray.direction, vec3(1e-12), lessThan(abs(ray.direction), vec3(1e-12)));
+    vec3 toLow = (clipKeptLow - ray.origin) / safe;
+    vec3 toHigh = (clipKeptHigh - ray.origin) / safe;
+    vec3 near = min(toLow, toHigh);
+    vec3 far = max(toLow, toHigh);
+    return vec2(max(near.x, max(near.y, near.z)), min(far.x, min(far.y, far.z)));
+}
+
 // For all depths of [begin, end] at once, with one look-up: 1 kept, -1 removed, 0 not known.
 int clipVerdict(ClipRay ray, float begin, float end) {
     float measure = keptMeasure(ray, 0.5 * (begin + end));
     float reach = largestChange(0.5 * (end - begin) * ray.lengthPerDepth);
+    return measure > reach ? 1 : measure < -reach ? -1 : 0;
+}
+
+// The same, for a ray that goes on: what is removed for longer is said by `removedUntil` >= end, the depth up to which it is.
+int clipVerdict(ClipRay ray, float begin, float end, out float removedUntil) {
+    float middle = 0.5 * (begin + end);
+    float measure = keptMeasure(ray, middle);
+    float reach = largestChange((end - middle) * ray.lengthPerDepth);
+    removedUntil = middle + max((-measure - nearestSampleSlack) / 1.1, -measure / 1.7321) / ray.lengthPerDepth;
     return measure > reach ? 1 : measure < -reach ? -1 : 0;
 }
 

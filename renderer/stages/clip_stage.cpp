@@ -3,12 +3,14 @@
 #include "base/errors.h"
 #include "stages/gradient_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxsheet {
 namespace {
 
 constexpr double kSmallest = 1e-37; ///< of normal 32-bit floats, nearly
+constexpr float kFar = 1e6F;        ///< in texture frames: beyond any picture
 
 bool isAffineAndInvertible(const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
@@ -19,6 +21,34 @@ bool isAffineAndInvertible(const glm::dmat4& matrix) {
     const glm::dmat3 linear(matrix);
     const double scale = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     return affine && std::abs(glm::determinant(linear)) > 1e-9 * scale;
+}
+
+/// In the texture frame of the distances; distances beyond the ends are those at the ends.
+struct KeptBox {
+    glm::vec3 low{-kFar};
+    glm::vec3 high{kFar};
+};
+
+/// Of a probe: around all bricks that have something inside.
+KeptBox insideBox(const ResidentVolume& object) {
+    KeptBox box{glm::vec3(kFar), glm::vec3(-kFar)};
+    const auto& bricks = object.minMax->bricks;
+    auto range = object.minMax->ranges.begin();
+    for (int z = 0; z < bricks.z; ++z)
+        for (int y = 0; y < bricks.y; ++y)
+            for (int x = 0; x < bricks.x; ++x, ++range) {
+                if (!(range->low < 0.0F)) continue;
+                const glm::ivec3 brick(x, y, z);
+                for (int axis = 0; axis < 3; ++axis) {
+                    const float width = MinMaxGrid::brickSamples / static_cast<float>(object.dims[axis]);
+                    const float low = brick[axis] == 0 ? -kFar : width * static_cast<float>(brick[axis]);
+                    const float high =
+                        brick[axis] + 1 == bricks[axis] ? kFar : width * static_cast<float>(brick[axis] + 1);
+                    box.low[axis] = std::min(box.low[axis], low);
+                    box.high[axis] = std::max(box.high[axis], high);
+                }
+            }
+    return box;
 }
 
 } // namespace
@@ -76,6 +106,9 @@ void ClipStage::bind(const gpu::Program& program, const TileSpec& tile, const Gr
     program.set("measureFromTexel",
                 glm::vec2(sign * object->valueScale, sign * object->valueOffset + onSurface));
     program.set("clipTexelSize", 1.0F / glm::vec3(object->dims));
+    const auto kept = probe ? insideBox(*object) : KeptBox{};
+    program.set("clipKeptLow", kept.low);
+    program.set("clipKeptHigh", kept.high);
     // Interpolants and nearest samples of true distances are off by at most half a voxel's diagonal, at both
     // ends.
     program.set("nearestSampleSlack", static_cast<float>(glm::length(spacingWorld(objectGrid))));

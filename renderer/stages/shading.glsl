@@ -1,12 +1,12 @@
 // Light on a sample or a surface (stages/shading_spec.h, stages/shading_stage.h). Needs classification.glsl and kept_span.glsl;
 // clip_object.glsl where objects clip.
 //   SHADING           1: lit
+//   LIGHTS            directional lights
 //   GRADIENT_TEXTURE  1: gradients come from a texture, else from six taps
 #if SHADING
 uniform vec4 material; // ambient, diffuse, specular, shininess
 uniform float headLight;
 const int kMaxLights = 4;
-uniform int lightCount;
 uniform vec4 lights[kMaxLights];              // unit directions towards them in the view frame; w: intensity
 uniform vec4 cutNormals[kMaxClipPlanes];      // of the clip planes, in the view frame
 uniform mat3 viewFromGradient;                // from differences per voxel of the drawn level; any scale
@@ -35,23 +35,27 @@ vec3 gradientAt(vec3 position) {
 }
 #endif
 
-vec3 reflected(vec3 rgb, vec3 normal, vec3 toEye, vec4 light) {
-    float facing = dot(normal, light.xyz);
-    if (facing <= 0.0) return vec3(0.0);
-    vec3 mirrored = 2.0 * facing * normal - light.xyz;
-    float highlight = pow(max(dot(mirrored, toEye), 0.0), material.w);
-    return light.w * (material.y * facing * rgb + material.z * highlight);
+// What a light of unit intensity adds; `facing` is the cosine between normal and light, `mirrored` that between the mirrored light
+// and the eye.
+vec3 reflected(vec3 rgb, float facing, float mirrored) {
+    return material.y * facing * rgb + material.z * pow(max(mirrored, 0.0), material.w);
 }
 
 // `normal` in the view frame, of any length and sign; where it has none, the colour stays.
 vec3 lit(vec3 rgb, vec3 normal, vec3 toEye) {
-    float magnitude = length(normal);
-    if (!(magnitude > 0.0)) return rgb;
-    vec3 unit = normal / magnitude;
-    if (dot(unit, toEye) < 0.0) unit = -unit;
-    vec3 colour = material.x * rgb + reflected(rgb, unit, toEye, vec4(toEye, headLight));
-    for (int i = 0; i < lightCount; ++i) colour += reflected(rgb, unit, toEye, lights[i]);
-    return min(colour, 1.0);
+    float square = dot(normal, normal);
+    float towardsEye = dot(normal, toEye);
+    vec3 unit = normal * (towardsEye < 0.0 ? -inversesqrt(square) : inversesqrt(square));
+    float facing = abs(towardsEye) * inversesqrt(square);
+    vec3 colour = material.x * rgb + headLight * reflected(rgb, facing, 2.0 * facing * facing - 1.0);
+#if LIGHTS
+    for (int i = 0; i < LIGHTS; ++i) {
+        float towards = dot(unit, lights[i].xyz);
+        vec3 more = reflected(rgb, towards, 2.0 * towards * facing - dot(lights[i].xyz, toEye));
+        colour += towards > 0.0 ? lights[i].w * more : vec3(0.0);
+    }
+#endif
+    return square > 0.0 ? min(colour, 1.0) : rgb;
 }
 
 // Of a sample at `depth` inside the volume: the cut's normal within one voxel behind a cut, else the gradient's.

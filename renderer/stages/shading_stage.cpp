@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace voxsheet {
@@ -54,7 +55,9 @@ void validateShading(const ShadingSpec& shading) {
 }
 
 gpu::ShaderDefines ShadingStage::defines(const ShadingSpec& shading, const ResidentVolume* gradients) {
-    return {{"SHADING", shading.enabled ? "1" : "0"}, {"GRADIENT_TEXTURE", gradients != nullptr ? "1" : "0"}};
+    return {{"SHADING", shading.enabled ? "1" : "0"},
+            {"LIGHTS", std::to_string(shading.enabled ? shading.lightsView.size() : 0)},
+            {"GRADIENT_TEXTURE", gradients != nullptr ? "1" : "0"}};
 }
 
 void ShadingStage::bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
@@ -67,8 +70,7 @@ void ShadingStage::bind(const gpu::Program& program, const TileSpec& tile, const
     std::vector<glm::vec4> lights;
     for (const auto& light : shading.lightsView)
         lights.emplace_back(glm::dvec4(light, shading.lightIntensity));
-    program.set("lightCount", static_cast<int>(lights.size()));
-    program.set("lights", lights);
+    if (!lights.empty()) program.set("lights", lights);
     std::vector<glm::vec4> normals;
     for (const auto& plane : tile.clip.planes)
         normals.emplace_back(glm::dvec4(glm::dmat3(tile.camera.viewFromWorld) * plane.normal, 0.0));

@@ -64,6 +64,7 @@ Action addVolume(CLI::App& app) {
                    "object), ie (isosurface), all")
         ->delimiter(',')
         ->check(CLI::IsMember({"vr", "sr", "vc", "ie", "all"}));
+    app.add_option("--only", options->only, "Of --technique, the cases whose name has this text in it");
     app.add_option("--pixels", options->pixels, "Edge of the square picture")->check(CLI::Range(16, 4096));
     app.add_option("--frames", options->frames, "Frames per case, of which the median counts")
         ->check(CLI::Range(1, 10000));

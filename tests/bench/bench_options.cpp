@@ -58,6 +58,8 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             options.type = typeAfter(count, arguments, i);
         else if (argument == "--technique" && i + 1 < count)
             options.techniques.emplace_back(arguments[++i]);
+        else if (argument == "--only" && i + 1 < count)
+            options.only = arguments[++i];
         else if (argument != "--json")
             throw InvalidInput(argument, "there is no such option", "see --help");
     }

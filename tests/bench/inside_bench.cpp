@@ -7,6 +7,8 @@
 #include "volume/clip_shapes.h"
 #include "volume/memory_volume_provider.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -82,6 +84,13 @@ std::string sizeName(const VolumeBenchOptions& options, int samples) {
     return n + "^3 " + scalarName(options.type) + " " + p + "x" + p + " ";
 }
 
+/// Of all threads of the process so far.
+double processorMs() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 /// Where samples would be taken were none skipped: one per pixel on a face, else along the kept part of each
 /// ray.
 double sampleCountOf(const TileSpec& tile, const fields::Sources& sources) {
@@ -99,10 +108,13 @@ std::string runCase(RenderThread& thread, const VolumeProvider& provider, const 
     const auto distance =
         fields::difference(fields::everyNth(picture, stride), fields::insidePicture(first, sources, stride));
     std::vector<double> times;
+    const double cpuBefore = processorMs();
     for (int frame = 0; frame < frames; ++frame)
         times.push_back(drawTile(thread, turned(one, grid, frame)).wallMs);
+    const double cpuMs = (processorMs() - cpuBefore) / frames;
     return jsonObject({{"name", jsonString(one.name)},
                        {"ms", jsonNumber(median(std::move(times)))},
+                       {"cpu_ms", jsonNumber(cpuMs)},
                        {"samples", jsonNumber(sampleCountOf(first, sources))},
                        {"psnr", jsonNumber(distance.psnr)},
                        {"p999", jsonNumber(distance.p999)}});
@@ -129,6 +141,11 @@ std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int sampl
             tile.shading.gradient =
                 tile.technique == Technique::Raycast ? GradientSource::Texture : GradientSource::OnTheFly;
             cases.push_back({size + technique + (lit ? " lit" : ""), tile});
+            if (!lit || technique == "sr") continue;
+            const bool texture = tile.shading.gradient == GradientSource::Texture;
+            tile.shading.gradient = texture ? GradientSource::OnTheFly : GradientSource::Texture;
+            cases.push_back(
+                {size + technique + (texture ? " lit by six taps" : " lit by gradient texture"), tile});
         }
     if (std::find(techniques.begin(), techniques.end(), "vr") != techniques.end()) {
         auto planes = volumeTile(grid, samples, options.pixels);
@@ -168,6 +185,7 @@ std::string insideBench(const VolumeBenchOptions& options,
         RenderThread thread(memory, renderOptions);
         device = thread.device();
         for (const auto& one : list) {
+            if (one.name.find(options.only) == std::string::npos) continue;
             progress(one.name);
             cases.push_back(runCase(thread, provider, one, grid, options.frames));
         }

@@ -29,7 +29,7 @@ struct InsideCase {
 /// The tile of a case as the camera goes round.
 [[nodiscard]] TileSpec turned(const InsideCase& one, const Grid& grid, int frame);
 
-/// {"device", "renderer", "cases": [{"name", "ms", "samples", "psnr", "p999"}]}: psnr against the
+/// {"device", "renderer", "cases": [{"name", "ms", "cpu_ms", "samples", "psnr", "p999"}]}: psnr against the
 /// double-precision truth at the same sample positions, over about 64 x 64 pixels.
 [[nodiscard]] std::string insideBench(const VolumeBenchOptions& options,
                                       const std::function<void(const std::string&)>& progress);

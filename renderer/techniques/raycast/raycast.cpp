@@ -2,6 +2,7 @@
 
 #include "stages/banded_dispatch.h"
 
+#include <algorithm>
 #include <string>
 
 namespace voxsheet {
@@ -10,7 +11,10 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target] = request;
     const auto& volume = volumes.volume;
     auto defines = stages.definesFor(request);
-    defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels)));
+    // Near a clip object's surface samples are dear, and short chunks keep close to it.
+    const int longest = volumes.clipObject != nullptr ? 4 : 8;
+    defines.emplace_back("CHUNK_SAMPLES",
+                         std::to_string(std::min(longest, chunkSamples(tile.sampleDistanceVoxels))));
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
     stages.bindFor(program, request);

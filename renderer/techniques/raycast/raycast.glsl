@@ -50,104 +50,28 @@ void add(inout Light light, vec4 entry, float length) {
 }
 
 #if SHADING
-// The stretch whose sample is looked at next.
-struct Cursor {
-    int stretches; // along the whole ray, the shorter last one included
-    int chunks;
-    int chunk;
-    int stretch;  // of the chunk
-    bool entered; // `stretch` and `measure` hold for this chunk
-    float measure; // where the stretch begins
-    float depth;  // of the sample that was found
-    float length; // that it stands for
-    vec4 entry;
-    bool nearObject;
-};
-
-float depthOf(Path path, int stretch) { return path.span.begin + float(stretch) * path.spacing; }
-
-bool isWorthEntering(Path path, inout Cursor at) {
-    int first = at.chunk * CHUNK_SAMPLES;
-    float begin = depthOf(path, first);
-    float end = depthOf(path, first + CHUNK_SAMPLES);
-    bool worth = mayShow(path.ray.origin + 0.5 * (begin + end) * path.ray.direction);
+vec3 normalAt(Path path, float depth, bool nearObject) {
 #if CLIP_OBJECT
-    // One voxel more in front: it decides whether samples lie behind a cut.
-    int verdict = clipVerdict(path.clip, begin - path.depthPerVoxel, end);
-    worth = worth && verdict >= 0;
-    at.nearObject = verdict == 0;
-#endif
-    return worth;
-}
-
-// Goes on to the next sample that shows. Light is dear: where a driver runs SIMD groups with masks, a branch that no ray
-// takes costs its time all the same, and only loops keep it off the samples that show nothing.
-bool seekSample(Path path, inout Cursor at) {
-    bool found = false;
-    while (!found && at.chunk < at.chunks) {
-        while (!at.entered && at.chunk < at.chunks && !isWorthEntering(path, at)) ++at.chunk;
-        int first = at.chunk * CHUNK_SAMPLES;
-        int count = min(CHUNK_SAMPLES, at.stretches - first);
-        if (!at.entered) {
-            at.entered = true;
-            at.stretch = 0;
-#if CLIP_OBJECT == 1
-            at.measure = keptMeasure(path.clip, depthOf(path, first));
-#endif
-        }
-        while (at.chunk < at.chunks && at.stretch < count) {
-            vec2 part = vec2(depthOf(path, first + at.stretch), min(depthOf(path, first + at.stretch + 1), path.span.end));
-            ++at.stretch;
-#if CLIP_OBJECT == 1
-            float measureEnd = keptMeasure(path.clip, part.y);
-            part = keptPart(part.x, part.y, at.measure, measureEnd);
-            at.measure = measureEnd;
-#elif CLIP_OBJECT == 2
-            if (keptMeasure(path.clip, 0.5 * (part.x + part.y)) < 0.0) part.y = part.x;
-#endif
-            at.depth = 0.5 * (part.x + part.y);
-            at.length = part.y - part.x;
-            at.entry = classifyTexel(texelAt(path.ray.origin + at.depth * path.ray.direction));
-            found = at.entry.a > 0.0 && at.length > 0.0;
-            if (found) break;
-        }
-        if (!found) {
-            at.entered = false;
-            ++at.chunk;
-        }
-    }
-    return found;
-}
-
-vec4 composite(Path path) {
-    Cursor at;
-    at.stretches = int((path.span.end - path.span.begin) / path.spacing) + 1;
-    at.chunks = (at.stretches + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
-    at.chunk = 0;
-    at.entered = false;
-    at.measure = 0.0;
-    at.nearObject = false;
-    Light light = Light(vec3(0.0), 1.0);
-    while (light.transmittance > kOpaque) {
-        if (!seekSample(path, at)) break;
-#if CLIP_OBJECT
-        vec3 normal = sampleNormal(path.ray, path.span, at.depth, path.depthPerVoxel, path.clip, at.nearObject);
+    return sampleNormal(path.ray, path.span, depth, path.depthPerVoxel, path.clip, nearObject);
 #else
-        vec3 normal = sampleNormal(path.ray, path.span, at.depth, path.depthPerVoxel);
+    return sampleNormal(path.ray, path.span, depth, path.depthPerVoxel);
 #endif
-        add(light, vec4(lit(at.entry.rgb, normal, path.ray.toEye), at.entry.a), at.length * path.unitsPerDepth);
-    }
-    return vec4(light.colour, 1.0 - light.transmittance);
 }
-#else
+#endif
+
 // The sample at `depth` that stands for `length` of depth.
-void takeSample(inout Light light, Path path, float depth, float length) {
-    add(light, classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction)), length * path.unitsPerDepth);
+void takeSample(inout Light light, Path path, float depth, float length, bool nearObject) {
+    vec4 entry = classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction));
+#if SHADING
+    if (entry.a > 0.0) entry.rgb = lit(entry.rgb, normalAt(path, depth, nearObject), path.ray.toEye);
+#endif
+    add(light, entry, length * path.unitsPerDepth);
 }
 
+// `count` whole stretches; none or fewer than a chunk's where the path ends.
 void takeWhole(inout Light light, Path path, int first, int count) {
     for (int k = 0; k < CHUNK_SAMPLES; ++k)
-        takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count ? path.spacing : 0.0);
+        takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count ? path.spacing : 0.0, false);
 }
 
 #if CLIP_OBJECT
@@ -155,59 +79,104 @@ void takeWhole(inout Light light, Path path, int first, int count) {
 float takeClipped(inout Light light, Path path, float begin, float end, float measureBegin) {
 #if CLIP_OBJECT == 2
     float middle = 0.5 * (begin + end);
-    takeSample(light, path, middle, keptMeasure(path.clip, middle) >= 0.0 ? end - begin : 0.0);
+    takeSample(light, path, middle, keptMeasure(path.clip, middle) >= 0.0 ? end - begin : 0.0, true);
     return 0.0;
 #else
     float measureEnd = keptMeasure(path.clip, end);
     vec2 part = keptPart(begin, end, measureBegin, measureEnd);
-    takeSample(light, path, 0.5 * (part.x + part.y), part.y - part.x);
+    takeSample(light, path, 0.5 * (part.x + part.y), part.y - part.x, true);
     return measureEnd;
 #endif
 }
+#endif
 
-void takeChunk(inout Light light, Path path, int first, int whole) {
-    float begin = path.span.begin + float(first) * path.spacing;
-    int verdict = clipVerdict(path.clip, begin, begin + float(CHUNK_SAMPLES) * path.spacing);
-    int count = min(CHUNK_SAMPLES, whole - first);
-    if (verdict > 0) takeWhole(light, path, first, count);
+// The next chunk of the ray.
+struct Chunk {
+    int index;
+    int verdict; // 1: all of it counts; 0: a part of it may; -1: it shows nothing
+};
+
+float chunkBegin(Path path, int chunk) { return path.span.begin + float(chunk * CHUNK_SAMPLES) * path.spacing; }
+
+int wholeIn(int chunk, int whole) { return min(CHUNK_SAMPLES, whole - chunk * CHUNK_SAMPLES); }
+
+#if CLIP_OBJECT
+// Where all that follows is removed, the chunk is the last one of it.
+void look(Path path, inout Chunk at) {
+    float length = float(CHUNK_SAMPLES) * path.spacing;
+    float begin = chunkBegin(path, at.index);
+    float removedUntil;
+#if SHADING
+    // One voxel more in front: it decides whether samples lie behind a cut.
+    at.verdict = clipVerdict(path.clip, begin - path.depthPerVoxel, begin + length, removedUntil);
+#else
+    at.verdict = clipVerdict(path.clip, begin, begin + length, removedUntil);
+#endif
+    if (at.verdict < 0) at.index = max(at.index, int((removedUntil - path.span.begin) / length) - 1);
+    else if (!mayShow(path.ray.origin + (begin + 0.5 * length) * path.ray.direction)) at.verdict = -1;
+}
+
+void takeClippedChunk(inout Light light, Path path, int chunk, int count) {
+    float begin = chunkBegin(path, chunk);
     float measure = keptMeasure(path.clip, begin);
-    int clipped = verdict == 0 ? count : 0;
-    for (int k = 0; k < clipped; ++k) {
+    for (int k = 0; k < count; ++k) {
         float stretch = begin + float(k) * path.spacing;
         measure = takeClipped(light, path, stretch, stretch + path.spacing, measure);
     }
 }
+
+// Loops, not branches: where a driver runs SIMD groups with masks, rays of a group that come to the same kind of chunk at
+// different times then still take them together.
+void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
+    float length = float(CHUNK_SAMPLES) * path.spacing;
+    vec2 kept = (clipKeptSpan(path.clip) - path.span.begin) / length;
+    Chunk at = Chunk(int(clamp(kept.x, 0.0, float(chunks))), -1);
+    chunks = int(clamp(ceil(kept.y), 0.0, float(chunks)));
+    if (at.index < chunks) look(path, at);
+    while (light.transmittance > kOpaque && at.index < chunks) {
+        while (at.verdict < 0 && at.index < chunks) {
+            ++at.index;
+            look(path, at);
+        }
+        while (at.verdict > 0 && at.index < chunks && light.transmittance > kOpaque) {
+            takeWhole(light, path, at.index * CHUNK_SAMPLES, wholeIn(at.index, whole));
+            ++at.index;
+            look(path, at);
+        }
+        while (at.verdict == 0 && at.index < chunks && light.transmittance > kOpaque) {
+            takeClippedChunk(light, path, at.index, wholeIn(at.index, whole));
+            ++at.index;
+            look(path, at);
+        }
+    }
+}
 #else
-void takeChunk(inout Light light, Path path, int first, int whole) { takeWhole(light, path, first, whole - first); }
+// Every lane of a SIMD group seeks its own next chunk, so that all of them then have samples to take.
+void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
+    int chunk = 0;
+    float middle = 0.5 * float(CHUNK_SAMPLES) * path.spacing;
+    while (light.transmittance > kOpaque) {
+        while (chunk < chunks && !mayShow(path.ray.origin + (chunkBegin(path, chunk) + middle) * path.ray.direction)) ++chunk;
+        if (chunk >= chunks) break;
+        takeWhole(light, path, chunk * CHUNK_SAMPLES, wholeIn(chunk, whole));
+        ++chunk;
+    }
+}
 #endif
 
 vec4 composite(Path path) {
-    float stretches = (path.span.end - path.span.begin) / path.spacing;
-    int whole = int(stretches);
+    int whole = int((path.span.end - path.span.begin) / path.spacing);
     Light light = Light(vec3(0.0), 1.0);
-    int chunks = (whole + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES;
-    int chunk = 0;
-    vec3 stride = path.spacing * path.ray.direction;
-    vec3 first = path.ray.origin + (path.span.begin + 0.5 * path.spacing) * path.ray.direction;
-    while (light.transmittance > kOpaque) {
-        // Every lane of a SIMD group seeks its own next stretch, so that all of them then have samples to take.
-        while (chunk < chunks &&
-               !mayShow(first + (float(chunk * CHUNK_SAMPLES) + 0.5 * float(CHUNK_SAMPLES - 1)) * stride))
-            ++chunk;
-        if (chunk >= chunks) break;
-        takeChunk(light, path, chunk * CHUNK_SAMPLES, whole);
-        ++chunk;
-    }
+    takeWholeStretches(light, path, whole, (whole + CHUNK_SAMPLES - 1) / CHUNK_SAMPLES);
     // The rest of the path is shorter than a whole stretch: its sample sits in its middle and counts for its length.
     float begin = path.span.begin + float(whole) * path.spacing;
 #if CLIP_OBJECT
     takeClipped(light, path, begin, path.span.end, keptMeasure(path.clip, begin));
 #else
-    takeSample(light, path, 0.5 * (begin + path.span.end), path.span.end - begin);
+    takeSample(light, path, 0.5 * (begin + path.span.end), path.span.end - begin, false);
 #endif
     return vec4(light.colour, 1.0 - light.transmittance);
 }
-#endif
 
 void main() {
     ivec2 pixel = picturePixel();
