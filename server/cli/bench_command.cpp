@@ -2,6 +2,7 @@
 #include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
 #include "cli/bench/stream_bench.h"
+#include "cli/bench/time_n_command.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 
@@ -97,6 +98,8 @@ Action addBench(CLI::App& app) {
     };
     add("volume", "Time and quality of every volume rendering technique on one volume", &addVolume);
     add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
+    add("time-n", "Rendering time over the number of datasets, with dynamic resolution or without",
+        &addTimeN);
     return [benches] {
         for (const auto& bench : *benches)
             if (bench.app->parsed()) return bench.action();

@@ -1,5 +1,6 @@
 #include "cli/engine_arguments.h"
 
+#include "base/byte_size.h"
 #include "base/errors.h"
 #include "sheet/bounded_json.h"
 #include "sheet/commands.h"
@@ -11,7 +12,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -118,30 +118,6 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
                    "Columns of the sheet (default: chosen by the number of files)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--layout", arguments.layout, "Place files by their names, e.g. 'sub-{row}_{col}.nii.gz'");
-}
-
-std::uint64_t parseBytes(const std::string& text, const std::string& field) {
-    if (text.empty()) return 0;
-    std::size_t used = 0;
-    double number = 0.0;
-    try {
-        number = std::stod(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    static const std::string units = "KMGT";
-    auto suffix = text.substr(used);
-    double factor = 1.0;
-    if (!suffix.empty()) {
-        const auto unit = units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(suffix[0]))));
-        const auto rest = suffix.substr(1);
-        if (unit == std::string::npos || !(rest.empty() || rest == "B" || rest == "iB")) used = 0;
-        factor = std::pow(1024.0, static_cast<double>(unit) + 1.0);
-    }
-    if (used == 0 || !std::isfinite(number) || number <= 0.0 || number * factor > 0x1p60)
-        throw InvalidInput(field, "`" + text + "` is no number of bytes", "write for example 512M or 2G")
-            .withField(field);
-    return static_cast<std::uint64_t>(number * factor);
 }
 
 engine::EngineOptions engineOptions(const EngineArguments& arguments) {

@@ -30,10 +30,6 @@ struct EngineArguments {
 
 void addEngineArguments(CLI::App& app, EngineArguments& arguments);
 
-/// Bytes from `512M`, `2G`, `1.5GiB`, `800000000`; K, M, G, T are powers of 1024. Throws InvalidInput with
-/// `field`.
-[[nodiscard]] std::uint64_t parseBytes(const std::string& text, const std::string& field);
-
 /// Default folders: $XDG_CACHE_HOME or ~/.cache, then voxsheet/{store,uploads}. Throws InvalidInput for bad
 /// sizes.
 [[nodiscard]] engine::EngineOptions engineOptions(const EngineArguments& arguments);

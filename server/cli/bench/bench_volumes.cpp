@@ -4,24 +4,11 @@
 #include "cli/demo/analytic_fields.h"
 
 #include <array>
-#include <cstdlib>
 #include <fstream>
 
 namespace voxsheet::cli {
 
 namespace fs = std::filesystem;
-
-ScratchFolder::ScratchFolder() {
-    auto pattern = (fs::temp_directory_path() / "voxsheet-bench-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-        throw IoError(pattern, "no folder could be made there", "set TMPDIR to a folder with some GiB");
-    path_ = pattern;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 std::vector<std::string> writeBenchVolumes(const fs::path& folder, int count, int dim) {
     const auto signal = marschnerLobb(dim);

@@ -1,5 +1,6 @@
 #include "cli/bench/stream_bench.h"
 
+#include "bench/scratch_folder.h"
 #include "cli/bench/bench_volumes.h"
 #include "cli/bench/stream_probe.h"
 #include "cli/engine_arguments.h"
@@ -69,7 +70,7 @@ nlohmann::json viewOf(const engine::Engine& engine, glm::ivec2 tile, double azim
 }
 
 nlohmann::json runCase(const StreamBenchOptions& options, int cells) {
-    const ScratchFolder scratch;
+    const bench::ScratchFolder scratch;
     const auto start = Clock::now();
     Served served(options, cells, scratch.path());
     StreamProbe probe(served.server->port(), served.engine.snapshot()->sheets.front().name);

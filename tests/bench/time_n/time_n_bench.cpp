@@ -1,0 +1,203 @@
+#include "bench/time_n/time_n_bench.h"
+
+#include "base/errors.h"
+#include "bench/time_n/bench_datasets.h"
+#include "bench/time_n/host_memory.h"
+#include "bench/time_n/stop_signals.h"
+#include "frame/render_thread.h"
+#include "frame/timer_check.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace voxsheet::bench {
+
+namespace {
+
+constexpr int kCheckedTiles = 4;
+
+class TimeNRun {
+public:
+    TimeNRun(const TimeNOptions& options, const BenchDatasets& datasets,
+             const std::function<void(const std::string&)>& progress)
+        : datasets_(datasets), progress_(progress),
+          memory_(std::make_shared<HostMemory>(datasets.store(), options.memoryBudgetBytes)),
+          thread_(memory_, {options.device, options.textureBudgetBytes}),
+          resolution_(options.rule, levelCount(datasets.grid().dims)) {
+        result_.options = options;
+        result_.renderer = thread_.device().renderer;
+        result_.onDisk = datasets.onDisk();
+    }
+
+    [[nodiscard]] TimeNResult run() {
+        for (int n = 1; n <= result_.options.maxN; ++n) {
+            measureAndKeep(n);
+            while (answer(n)) {
+            }
+            const double limit = result_.options.stopMs;
+            if (limit > 0.0 && result_.points.back().ms.value > limit) break;
+        }
+        result_.segments = segmentsOf(result_.points);
+        result_.timerGpuMs = timers_.gpuMs();
+        result_.timerHostMs = timers_.hostMs();
+        result_.timersAgree = timers_.agrees();
+        if (result_.nMax == 0) result_.nMax = result_.points.back().n;
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] FrameSpec frameSpec(int n, int frame) const {
+        FrameSpec spec;
+        for (int index = 0; index < n; ++index)
+            spec.tiles.push_back(timeNTile(result_.options.scene, datasets_.key(index), datasets_.grid(),
+                                           resolution_.level(), frame));
+        return spec;
+    }
+
+    [[nodiscard]] FrameResult draw(FrameSpec spec) {
+        auto frame = thread_.submit(std::move(spec), FramePriority::Export, &stopRequested).get();
+        for (const auto& tile : frame.tiles)
+            if (!tile.error.empty()) throw GpuError("time-N bench", tile.error);
+        return frame;
+    }
+
+    void measureAndKeep(int n) {
+        const auto point = measure(n);
+        result_.points.push_back(point);
+        char line[160];
+        std::snprintf(line, sizeof line, "N = %d, level %d: %.1f ms (upload %.1f, reading %.1f)", n,
+                      point.level, point.ms.value, point.uploadMs, point.ioMs);
+        progress_(line);
+    }
+
+    [[nodiscard]] TimeNPoint measure(int n) {
+        (void)draw(frameSpec(n, 0)); // uploads what is new
+        TimeNPoint point;
+        point.n = n;
+        point.level = resolution_.level();
+        std::vector<double> times;
+        std::vector<double> uploads;
+        std::vector<double> reads;
+        const auto diskBefore = memory_->diskBytes();
+        for (int frame = 0; frame < result_.options.frames; ++frame) {
+            const auto drawn = draw(frameSpec(n, frame));
+            times.push_back(drawn.wallMs);
+            uploads.push_back(0.0);
+            reads.push_back(0.0);
+            for (const auto& tile : drawn.tiles) {
+                uploads.back() += tile.uploadMs;
+                reads.back() += tile.readMs;
+            }
+            resolution_.addFrame(n, drawn.wallMs);
+            point.residentBytes = std::max(point.residentBytes, thread_.residency().residentBytes);
+            point.hostBytes = std::max(point.hostBytes, memory_->residentBytes());
+        }
+        point.ms = measuredMedian(times);
+        point.uploadMs = measuredMedian(uploads).value;
+        point.ioMs = measuredMedian(reads).value;
+        point.diskBytesPerFrame =
+            (memory_->diskBytes() - diskBefore) / static_cast<std::uint64_t>(result_.options.frames);
+        if (point.uploadMs > 0.0 && !result_.textureSwapN) result_.textureSwapN = n;
+        if (point.diskBytesPerFrame > 0 && !result_.memorySwapN) result_.memorySwapN = n;
+        const auto curve = resolution_.times().curve(point.level, n);
+        point.rawRatio = rawSlopeRatio(curve);
+        point.ratio = newestSlopeRatio(segmentFrom(curve, std::max(watchedFromN_, watch_.segmentFirstN())));
+        checkTimers(n);
+        return point;
+    }
+
+    void checkTimers(int n) {
+        auto spec = frameSpec(std::min(n, kCheckedTiles), 0);
+        spec.checkTimers = true;
+        timers_.add(draw(std::move(spec)));
+    }
+
+    /// Asks the rule about the sheet of n datasets, and follows it. Returns whether there is a new level, and
+    /// n was measured at it.
+    bool answer(int n) {
+        const int level = resolution_.level();
+        const auto curve = resolution_.times().curve(level, n);
+        const auto bend = watch_.judge(segmentFrom(curve, watchedFromN_), ratioLimit());
+        const auto decision = resolution_.decide({n, bytesAtLevelZero(n)});
+        if (bend) keepTransition(*bend, level, decision);
+        if (!decision.changed) return false;
+        progress_(decision.reason);
+        watch_ = {};
+        watchedFromN_ = 0;
+        const auto lastN = resolution_.lastNOfLevel()[static_cast<std::size_t>(level)];
+        const int firstN = decision.level > level && lastN ? *lastN + 1 : n;
+        measureAgain(firstN, n);
+        return true;
+    }
+
+    /// The sheets of firstN to lastN datasets are drawn at another level from now on.
+    void measureAgain(int firstN, int lastN) {
+        const auto first = std::find_if(result_.points.begin(), result_.points.end(),
+                                        [&](const TimeNPoint& point) { return point.n >= firstN; });
+        result_.trials.insert(result_.trials.end(), first, result_.points.end());
+        result_.points.erase(first, result_.points.end());
+        for (int n = firstN; n <= lastN; ++n)
+            measureAndKeep(n);
+    }
+
+    void keepTransition(const SlopeBend& bend, int level, const Decision& decision) {
+        TimeNTransition transition{bend, level, "unknown", {}};
+        const auto began = [&](const std::optional<int>& n) {
+            return n && *n >= bend.lastN - 1 && *n <= bend.detectedN;
+        };
+        if (began(result_.memorySwapN))
+            transition.cause = "memory budget";
+        else if (began(result_.textureSwapN))
+            transition.cause = "texture budget";
+        if (decision.changed) transition.newLevel = decision.level;
+        if (bend.breaksRule && !decision.changed && result_.nMax == 0) result_.nMax = bend.lastN;
+        result_.transitions.push_back(transition);
+        if (!bend.breaksRule) return;
+        watch_ = {};
+        watchedFromN_ = bend.lastN;
+    }
+
+    [[nodiscard]] double ratioLimit() const {
+        return result_.options.rule.criterion == ResolutionCriterion::SlopeFirst ? kFirstTransitionRatioLimit
+                                                                                 : kPaperRatioLimit;
+    }
+
+    [[nodiscard]] std::uint64_t bytesAtLevelZero(int n) const {
+        const auto voxels = static_cast<std::uint64_t>(sampleCount(datasets_.grid().dims));
+        return static_cast<std::uint64_t>(n) * voxels;
+    }
+
+    const BenchDatasets& datasets_;
+    const std::function<void(const std::string&)>& progress_;
+    std::shared_ptr<HostMemory> memory_;
+    RenderThread thread_;
+    DynamicResolution resolution_;
+    SlopeWatch watch_;     ///< finds the bends also when the rule is another one, or off
+    int watchedFromN_ = 0; ///< the last bend that broke the rule unanswered
+    TimerCheck timers_;
+    TimeNResult result_;
+};
+
+void validate(const TimeNOptions& options) {
+    const auto inRange = [](int value, int low, int high, const char* option) {
+        if (value < low || value > high)
+            throw InvalidInput(option,
+                               "it must be from " + std::to_string(low) + " to " + std::to_string(high))
+                .withField(option + 2);
+    };
+    inRange(options.maxN, 1, 1024, "--max-n");
+    inRange(options.dim, 16, 1024, "--dim");
+    inRange(options.frames, 1, 1000, "--frames");
+    if (options.textureBudgetBytes == 0 || options.memoryBudgetBytes == 0)
+        throw InvalidInput("budget", "it must be above 0 bytes");
+}
+
+} // namespace
+
+TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,
+                       const std::function<void(const std::string&)>& progress) {
+    validate(options);
+    return TimeNRun(options, datasets, progress).run();
+}
+
+} // namespace voxsheet::bench

@@ -1,0 +1,24 @@
+// The time-N bench: N datasets on disk, equal tiles, all N drawn for each N from 1 on; with dynamic
+// resolution or without (Khanduja & Karki 2007, figures 6, 7, 8a and 8b).
+#pragma once
+
+#include "bench/time_n/time_n_result.h"
+
+#include <functional>
+
+namespace voxsheet::bench {
+
+class BenchDatasets;
+
+/// Of `datasets` the first options.maxN, which must be of options.dim.
+///
+/// For each N: a frame that is not counted (it uploads what is new), options.frames frames with a turning
+/// camera, and one with FrameSpec::checkTimers for up to four tiles. When dynamic resolution goes to a
+/// coarser level because of a bend after N = b, the sheets of b + 1 to N datasets are measured again
+/// at that level; what was measured before is kept in `trials`. `progress` is told a line for each N.
+/// Throws InvalidInput for options out of range, what a tile is at fault for (a budget too small for one
+/// volume, say), Cancelled after SIGINT or SIGTERM, GpuError, IoError.
+[[nodiscard]] TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,
+                                     const std::function<void(const std::string&)>& progress);
+
+} // namespace voxsheet::bench
