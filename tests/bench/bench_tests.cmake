@@ -16,3 +16,24 @@ if(TARGET voxsheet_vtk_peer)
     set_tests_properties(bench.vs_vtk PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"cases\":\\[{\"name\":.*\"voxsheet_ms\":.*\"ratio_vtk_gpu\":")
 endif()
+
+if(TARGET bench_time_n)
+    # Small volumes and budgets, so that textures are swapped and volumes read again within N = 6.
+    set(small_time_n --dim 32 --max-n 6 --tile 64x64 --frames 2 --memory-budget 150K --json)
+    add_test(NAME bench.time_n COMMAND bench_time_n ${small_time_n} --technique ie --shading --texture-budget 1M --dr slope)
+    set_tests_properties(bench.time_n PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"technique\":\"ie\".*\"points\":\\[{\"n\":1,.*\"n\":6,.*\"segments\":.*\"texture_swapping_from\":4,\"disk_reading_from\":[4-6],.*\"n_max\":")
+    add_test(NAME bench.time_n_bad_usage COMMAND bench_time_n --texture-budget 0)
+    set_tests_properties(bench.time_n_bad_usage PROPERTIES LABELS bench
+        PASS_REGULAR_EXPRESSION "error: --texture-budget: .0. is no number of bytes")
+    add_test(NAME bench.time_n_small_budget COMMAND bench_time_n ${small_time_n} --texture-budget 20K)
+    set_tests_properties(bench.time_n_small_budget PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "error: .*texture budget")
+endif()
+if(TARGET voxsheet AND TARGET bench_time_n)
+    # The texture of the clip object takes 2.1 MB.
+    add_test(NAME bench.time_n_figures COMMAND voxsheet bench time-n ${small_time_n} --texture-budget 3M
+        --paper ${CMAKE_BINARY_DIR}/tests/bench/figures)
+    set_tests_properties(bench.time_n_figures PROPERTIES LABELS bench TIMEOUT 300 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\".*\"n_max\"")
+endif()

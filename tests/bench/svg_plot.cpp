@@ -73,7 +73,7 @@ public:
             svg +=
                 line(kLeft, y(rule.at), right(), y(rule.at), rule.colour, 1.0, " stroke-dasharray=\"5 3\"") +
                 textAt(right() - 4.0, y(rule.at) - 4.0, rule.label,
-                       "class=\"note\" text-anchor=\"end\" fill=\"" + rule.colour + "\"");
+                       "class=\"note\" text-anchor=\"end\" style=\"fill:" + rule.colour + "\"");
         svg += verticals();
         for (const auto& series : panel_.series)
             svg += curve(series);
@@ -112,7 +112,7 @@ private:
             const bool fits = x(rule.at) < kLeft + 0.66 * (right() - kLeft);
             svg += textAt(x(rule.at) + (fits ? 5.0 : -5.0), bottom() - 8.0 - 14.0 * row, rule.label,
                           "class=\"note\" text-anchor=\"" + std::string(fits ? "start" : "end") +
-                              "\" fill=\"" + rule.colour + "\"");
+                              "\" style=\"fill:" + rule.colour + "\"");
             row = row >= 3.0 ? 0.0 : row + 1.0;
         }
         return svg;

@@ -1,13 +1,13 @@
 #include "cli/bench/time_n_command.h"
 
-#include "base/byte_size.h"
-#include "base/errors.h"
+#include "bench/time_n/time_n_arguments.h"
 #include "bench/time_n/time_n_output.h"
 #include "cli/exit_codes.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -15,62 +15,22 @@ namespace voxsheet::cli {
 
 namespace {
 
-const char* const kAbout = "Draws N datasets in equal tiles for N = 1, 2, ... and reports T_N, the time from "
-                           "state to host pixels (the median "
-                           "of some frames with a turning camera, with its confidence interval), at the "
-                           "level of detail that --dr chooses. "
-                           "The datasets differ; they are written below TMPDIR (about 1.15 bytes per voxel) "
-                           "and removed at the end. What no "
-                           "longer fits --texture-budget is uploaded again, what no longer fits "
-                           "--memory-budget is read from the disk again.\n"
-                           "n_max is the largest N up to which every sheet was drawn whole and the time-N "
-                           "curve kept the rule, R <= 1.5: no "
-                           "bend that is surely above 1.5 and that --dr did not answer with a coarser level.";
+const char* const kAbout =
+    "Draws N datasets in equal tiles for N = 1, 2, ... and reports T_N, the time from state to host pixels\n"
+    "(the median of some frames with a turning camera, with its confidence interval), at the level of\n"
+    "detail that --dr chooses. The datasets differ; they are written below TMPDIR (about 1.15 bytes per\n"
+    "voxel) and removed at the end. What does not fit --texture-budget is uploaded again, what does not\n"
+    "fit --memory-budget is read from the disk again.\n"
+    "n_max is the largest N up to which every sheet was drawn whole and the time-N curve kept the rule\n"
+    "R <= 1.5: no bend that is surely above 1.5 and that --dr did not answer with a coarser level.";
 
 struct TimeNArguments {
     bench::TimeNOptions options;
-    std::string tile = "256x256";
-    std::string textureBudget = "256M";
-    std::string memoryBudget = "512M";
-    std::string dr = "off";
-    std::optional<double> drLimit;
+    bench::TimeNTexts texts;
     bench::TimeNFiles files;
     std::string paperFolder;
     bool json = false;
 };
-
-void applyLimit(ResolutionRule& rule, const std::optional<double>& limit) {
-    if (!limit) return;
-    switch (rule.criterion) {
-    case ResolutionCriterion::Time:
-        rule.frameMs = *limit;
-        return;
-    case ResolutionCriterion::Rate:
-        rule.framesPerSecond = *limit;
-        return;
-    case ResolutionCriterion::Count:
-        rule.datasets = static_cast<int>(*limit);
-        return;
-    case ResolutionCriterion::Bytes:
-        rule.bytes = static_cast<std::uint64_t>(*limit);
-        return;
-    case ResolutionCriterion::Off:
-    case ResolutionCriterion::Slope:
-    case ResolutionCriterion::SlopeFirst:
-        throw InvalidInput("--dr-limit", "it belongs to --dr time, rate, count or bytes")
-            .withField("dr-limit");
-    }
-}
-
-bench::TimeNOptions optionsOf(const TimeNArguments& arguments) {
-    auto options = arguments.options;
-    options.scene.tilePixels = bench::parseTileSize(arguments.tile);
-    options.textureBudgetBytes = parseBytes(arguments.textureBudget, "--texture-budget");
-    options.memoryBudgetBytes = parseBytes(arguments.memoryBudget, "--memory-budget");
-    options.rule.criterion = resolutionCriterionFromName(arguments.dr).value();
-    applyLimit(options.rule, arguments.drLimit);
-    return options;
-}
 
 void printTable(const bench::TimeNResult& result) {
     std::printf("%4s %5s %10s %10s %10s %10s %10s %7s %7s\n", "N", "level", "ms", "low", "high", "upload",
@@ -80,9 +40,9 @@ void printTable(const bench::TimeNResult& result) {
                     point.ms.value, point.ms.low, point.ms.high, point.uploadMs, point.ioMs,
                     point.rawRatio.value_or(std::nan("")), point.ratio ? point.ratio->value : std::nan(""));
     for (const auto& transition : result.transitions)
-        std::printf("the slope grew by R = %.2f (%.2f to %.2f) after N = %d at level %d (%s)\n",
-                    transition.bend.ratio.value, transition.bend.ratio.low, transition.bend.ratio.high,
-                    transition.bend.lastN, transition.level, transition.cause.c_str());
+        std::printf("after N = %d the slope is R = %.2f (%.2f to %.2f) times what it was, at level %d (%s)\n",
+                    transition.bend.lastN, transition.bend.ratio.value, transition.bend.ratio.low,
+                    transition.bend.ratio.high, transition.level, transition.cause.c_str());
     std::printf("n_max %d\n", result.nMax);
 }
 
@@ -95,7 +55,8 @@ int report(const std::vector<bench::TimeNResult>& results) {
 }
 
 int runOne(const TimeNArguments& arguments, const bench::Progress& progress) {
-    const auto result = bench::runTimeN(optionsOf(arguments), arguments.files, progress);
+    const auto result =
+        bench::runTimeN(bench::withTexts(arguments.options, arguments.texts), arguments.files, progress);
     if (arguments.json)
         std::printf("%s\n", nlohmann::json::parse(bench::jsonOf(result)).dump(2).c_str());
     else
@@ -104,7 +65,8 @@ int runOne(const TimeNArguments& arguments, const bench::Progress& progress) {
 }
 
 int runPaper(const TimeNArguments& arguments, const bench::Progress& progress) {
-    const auto results = bench::runPaperFigures(optionsOf(arguments), arguments.paperFolder, progress);
+    const auto results = bench::runPaperFigures(bench::withTexts(arguments.options, arguments.texts),
+                                                arguments.paperFolder, progress);
     if (arguments.json)
         std::printf("%s\n", nlohmann::json::parse(bench::jsonOf(results)).dump(2).c_str());
     else
@@ -129,16 +91,17 @@ Action addTimeN(CLI::App& app) {
     app.add_option("--max-n", a->options.maxN, "The largest N (64)")->check(CLI::Range(1, 1024));
     app.add_option("--dim", a->options.dim, "Samples per edge of each volume (256)")
         ->check(CLI::Range(16, 1024));
-    app.add_option("--tile", a->tile, "Pixels of each tile (256x256)");
-    app.add_option("--texture-budget", a->textureBudget, "Bytes of textures, e.g. 1G (256M)");
-    app.add_option("--memory-budget", a->memoryBudget, "Bytes of volumes in host memory, e.g. 2G (512M)");
+    app.add_option("--tile", a->texts.tile, "Pixels of each tile (256x256)");
+    app.add_option("--texture-budget", a->texts.textureBudget, "Bytes of textures, e.g. 1G (256M)");
+    app.add_option("--memory-budget", a->texts.memoryBudget,
+                   "Bytes of volumes in host memory, e.g. 2G (512M)");
     app.add_option(
-           "--dr", a->dr,
+           "--dr", a->texts.dr,
            "Dynamic resolution: off; slope (R > 1.5), slope-first (R > 1.2, catches the paper's first "
            "transition too), time, rate, count, bytes")
         ->check(CLI::IsMember({"off", "slope", "slope-first", "time", "rate", "count", "bytes"}));
     app.add_option(
-        "--dr-limit", a->drLimit,
+        "--dr-limit", a->texts.drLimit,
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
     app.add_option("--frames", a->options.frames, "Frames per N, of which the median counts (6)")
         ->check(CLI::Range(1, 1000));

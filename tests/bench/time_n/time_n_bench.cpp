@@ -2,10 +2,11 @@
 
 #include "base/errors.h"
 #include "bench/time_n/bench_datasets.h"
-#include "bench/time_n/host_memory.h"
 #include "bench/time_n/stop_signals.h"
 #include "frame/render_thread.h"
 #include "frame/timer_check.h"
+#include "residency/host_volume_cache.h"
+#include "store/store_volume_provider.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -15,13 +16,22 @@ namespace voxsheet::bench {
 namespace {
 
 constexpr int kCheckedTiles = 4;
+constexpr int kFirstFrames = 5; ///< until shaders are compiled and clocks are up
+
+/// What it does not keep comes from the disk: nothing is left to the system's page cache.
+std::shared_ptr<const HostVolumeCache> hostMemory(const BenchDatasets& datasets, std::uint64_t budgetBytes) {
+    HostCacheOptions options;
+    options.budgetBytes = budgetBytes;
+    options.pageCache = PageCacheUse::DropAlways;
+    return std::make_shared<const HostVolumeCache>(
+        std::make_shared<const store::StoreVolumeProvider>(datasets.store()), options);
+}
 
 class TimeNRun {
 public:
     TimeNRun(const TimeNOptions& options, const BenchDatasets& datasets,
              const std::function<void(const std::string&)>& progress)
-        : datasets_(datasets), progress_(progress),
-          memory_(std::make_shared<HostMemory>(datasets.store(), options.memoryBudgetBytes)),
+        : datasets_(datasets), progress_(progress), memory_(hostMemory(datasets, options.memoryBudgetBytes)),
           thread_(memory_, {options.device, options.textureBudgetBytes}),
           resolution_(options.rule, levelCount(datasets.grid().dims)) {
         result_.options = options;
@@ -30,6 +40,8 @@ public:
     }
 
     [[nodiscard]] TimeNResult run() {
+        for (int frame = 0; frame < kFirstFrames; ++frame)
+            (void)draw(frameSpec(1, frame));
         for (int n = 1; n <= result_.options.maxN; ++n) {
             measureAndKeep(n);
             while (answer(n)) {
@@ -78,7 +90,7 @@ private:
         std::vector<double> times;
         std::vector<double> uploads;
         std::vector<double> reads;
-        const auto diskBefore = memory_->diskBytes();
+        const auto diskBefore = memory_->state().diskBytes;
         for (int frame = 0; frame < result_.options.frames; ++frame) {
             const auto drawn = draw(frameSpec(n, frame));
             times.push_back(drawn.wallMs);
@@ -90,13 +102,13 @@ private:
             }
             resolution_.addFrame(n, drawn.wallMs);
             point.residentBytes = std::max(point.residentBytes, thread_.residency().residentBytes);
-            point.hostBytes = std::max(point.hostBytes, memory_->residentBytes());
+            point.hostBytes = std::max(point.hostBytes, memory_->state().bytes);
         }
         point.ms = measuredMedian(times);
         point.uploadMs = measuredMedian(uploads).value;
         point.ioMs = measuredMedian(reads).value;
         point.diskBytesPerFrame =
-            (memory_->diskBytes() - diskBefore) / static_cast<std::uint64_t>(result_.options.frames);
+            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(result_.options.frames);
         if (point.uploadMs > 0.0 && !result_.textureSwapN) result_.textureSwapN = n;
         if (point.diskBytesPerFrame > 0 && !result_.memorySwapN) result_.memorySwapN = n;
         const auto curve = resolution_.times().curve(point.level, n);
@@ -169,7 +181,7 @@ private:
 
     const BenchDatasets& datasets_;
     const std::function<void(const std::string&)>& progress_;
-    std::shared_ptr<HostMemory> memory_;
+    std::shared_ptr<const HostVolumeCache> memory_;
     RenderThread thread_;
     DynamicResolution resolution_;
     SlopeWatch watch_;     ///< finds the bends also when the rule is another one, or off

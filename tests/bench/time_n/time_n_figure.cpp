@@ -154,8 +154,8 @@ std::string timeNFigure(const TimeNResult& result) {
     const TimeUnit unit(std::max(largestMs(result.points), largestMs(result.trials)));
     PlotFigure figure;
     const auto& scene = result.options.scene;
-    figure.title = "Rendering time over N: " + longName(scene.technique) +
-                   (scene.shading ? " with shading, " : " without shading, ") + ruleText(result.options);
+    figure.title = "T_N: " + longName(scene.technique) +
+                   (scene.shading ? ", with shading; " : ", without shading; ") + ruleText(result.options);
     figure.subtitle = settings(result);
     figure.xLabel = "number of datasets N";
     figure.xLargest = result.options.maxN + 1.0;

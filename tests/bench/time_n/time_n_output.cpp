@@ -58,22 +58,6 @@ constexpr PaperFigure kPaperFigures[] = {
 
 } // namespace
 
-glm::ivec2 parseTileSize(const std::string& text) {
-    int width = 0;
-    int height = 0;
-    int used = 0;
-    int most = static_cast<int>(text.size());
-    if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2) {
-        used = 0;
-        if (std::sscanf(text.c_str(), "%d%n", &width, &used) == 1) height = width;
-    }
-    if (used != most || width < 8 || height < 8 || width > 4096 || height > 4096)
-        throw InvalidInput("--tile", "`" + text + "` is no size of 8 to 4096 pixels",
-                           "write for example 256x256")
-            .withField("tile");
-    return {width, height};
-}
-
 TimeNResult runTimeN(const TimeNOptions& options, const TimeNFiles& files, const Progress& progress) {
     const StopSignals signals;
     for (const auto& file : {files.csv, files.svg})

@@ -16,9 +16,6 @@ struct TimeNFiles {
 
 using Progress = std::function<void(const std::string&)>;
 
-/// "256x256", "320x200"; a single number is both. Throws InvalidInput.
-[[nodiscard]] glm::ivec2 parseTileSize(const std::string& text);
-
 /// One run: writes the datasets, measures, writes the files, removes the datasets. `progress` is also told
 /// which regimes did not appear. Throws as timeNBench, and IoError when a file cannot be written (before
 /// anything is measured).
