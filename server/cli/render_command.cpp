@@ -1,9 +1,9 @@
 #include "cli/commands.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
+#include "cli/look_arguments.h"
 #include "engine/image_file.h"
 #include "sheet/commands.h"
-#include "sheet/style_keys.h"
 
 #include <CLI/CLI.hpp>
 
@@ -25,8 +25,7 @@ struct RenderArguments {
     std::string cell;
     std::string title;
     std::vector<std::string> labels;
-    std::string preset;
-    std::vector<std::string> settings;
+    LookArguments look;
 };
 
 /// "1280x800".
@@ -42,30 +41,6 @@ glm::ivec2 parseSize(const std::string& text) {
                            "write for example 1600x1000")
             .withField("--size");
     return size;
-}
-
-/// `KEY=VALUE` for the whole sheet, over whatever columns, rows and cells say; `B2:KEY=VALUE` for one cell.
-void applySetting(engine::Engine& engine, const std::string& sheetName, const std::string& text) {
-    sheet::SetStyle edit;
-    edit.sheet = sheetName;
-    edit.clearNearer = true;
-    std::string assignment = text;
-    const auto colon = text.find(':');
-    if (colon != std::string::npos && colon < text.find('=')) {
-        edit.layer = sheet::Layer::ofCell(sheet::parseAddress(text.substr(0, colon)));
-        assignment = text.substr(colon + 1);
-    }
-    edit.patch.insert(sheet::parseAssignment(engine.keys(), assignment));
-    engine.apply(edit);
-}
-
-/// For the whole sheet; what --set says comes on top.
-void applyPreset(engine::Engine& engine, const std::string& sheetName, const std::string& name) {
-    sheet::SetStyle edit;
-    edit.sheet = sheetName;
-    edit.clearNearer = true;
-    edit.patch = sheet::presetNamed(engine.stylePresets(), name).style;
-    engine.apply(edit);
 }
 
 /// Labels go to the cells that hold something, in reading order.
@@ -124,9 +99,7 @@ int runRender(const RenderArguments& arguments) {
     engine::Engine engine(engineOptions(arguments.engine));
     openSources(engine, arguments.engine);
     request.sheet = engine.snapshot()->sheets.front().name;
-    if (!arguments.preset.empty()) applyPreset(engine, request.sheet, arguments.preset);
-    for (const auto& setting : arguments.settings)
-        applySetting(engine, request.sheet, setting);
+    applyLook(engine, request.sheet, arguments.look);
     applyLabels(engine, request.sheet, arguments.labels);
     const auto image = finalImage(engine, request);
     for (const std::string& failure : image.failures)
@@ -146,12 +119,10 @@ Action addRender(CLI::App& app) {
                    "Size of the whole image, e.g. 1600x1000 (default: 320x240 per cell)");
     app.add_option("--cell", arguments->cell, "Only this cell, e.g. B2");
     app.add_option("--title", arguments->title, "Text above the sheet");
-    app.add_option("--label", arguments->labels, "Name of a cell, in reading order; repeatable")->take_all();
-    app.add_option("--preset", arguments->preset,
-                   "A named look for all cells, e.g. isosurface, half, cut-face, sphere");
-    app.add_option("--set", arguments->settings,
-                   "KEY=VALUE for all cells, or B2:KEY=VALUE for one; repeatable")
-        ->take_all();
+    app.add_option("--label", arguments->labels, "Name of a cell, in reading order; repeatable")
+        ->take_all()
+        ->allow_extra_args(false);
+    addLookArguments(app, arguments->look);
     app.footer("Example: voxsheet render a.nrrd b.nrrd -o sheet.png --set camera.azimuth=40 --set "
                "B1:transfer.map=plasma");
     return [arguments] { return runRender(*arguments); };

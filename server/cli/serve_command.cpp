@@ -4,6 +4,7 @@
 #include "cli/demo/demo_workbook.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
+#include "cli/look_arguments.h"
 #include "http/guard/token.h"
 #include "http/resource/web_server.h"
 
@@ -26,6 +27,7 @@ namespace {
 
 struct ServeArguments {
     EngineArguments engine;
+    LookArguments look;
     std::string host = "127.0.0.1";
     int port = 8080;
     bool portAskedFor = false;
@@ -109,6 +111,7 @@ int runServe(const ServeArguments& arguments) {
     };
     http::WebServer server(web, engine, tiles, hub);
     openSources(engine, arguments.engine);
+    applyLook(engine, engine.snapshot()->sheets.front().name, arguments.look);
     server.start();
     announce(server);
     int signal = 0;
@@ -126,6 +129,7 @@ int runServe(const ServeArguments& arguments) {
 Action addServe(CLI::App& app) {
     auto arguments = std::make_shared<ServeArguments>();
     addEngineArguments(app, arguments->engine);
+    addLookArguments(app, arguments->look);
     app.add_option("--host", arguments->host, "Address to listen on");
     auto* port = app.add_option("--port", arguments->port,
                                 "Port; 0 = any free one (default: 8080, or the next free one)")

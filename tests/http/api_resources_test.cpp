@@ -424,6 +424,20 @@ TEST(ApiShutdown, TermEndsWithinTwoSecondsWithOpenStreams) {
     EXPECT_EQ(program.stop(SIGTERM, 2.0), 0);
 }
 
+TEST(ApiLook, ServeBeginsWithThePresetAndTheSettingsThatItWasGiven) {
+    // A file follows --set: it must not be taken for another setting.
+    ServedProgram program(2, {"--preset", "both-signs", "--set", "isovalue=40", "--set", "B1:technique=mip"});
+    const auto cells = program.get("/api/v1/state").json().at("sheets").at(0).at("cells");
+    const auto said = [&](std::size_t cell, const char* key) { return cells.at(cell).at("style").at(key); };
+    EXPECT_EQ(said(0, "technique").at("value"), "isosurface");
+    EXPECT_EQ(said(0, "technique").at("origin"), "sheet");
+    EXPECT_EQ(said(0, "isosurface.mirror").at("value"), "on");
+    EXPECT_EQ(said(0, "isosurface.colors").at("value").size(), 2U);
+    EXPECT_EQ(said(0, "isovalue").at("origin"), "sheet");
+    EXPECT_EQ(said(1, "technique").at("value"), "mip");
+    EXPECT_EQ(said(1, "technique").at("origin"), "cell");
+}
+
 TEST(ApiBasePath, PageAndApiBelowAPrefix) {
     ServedProgram program(1, {"--base-path", "/user/me"});
     EXPECT_EQ(program.get("/user/me/api/v1").status, 200);
