@@ -23,13 +23,24 @@ void addTick(std::vector<Tick>& ticks, const TransferFunction& function, double 
     ticks.push_back({std::clamp(position, 0.0, 1.0), value, numberLabel(value, resolution)});
 }
 
-std::vector<Tick> linearTicks(const TransferFunction& function, int wanted) {
+std::vector<Tick> ticksAtStep(const TransferFunction& function, int wanted, double step) {
     std::vector<Tick> ticks;
-    const double step = roundStep((function.high - function.low) / wanted);
     const double first = std::ceil(function.low / step - 1e-9);
     for (double k = first; k * step <= function.high + 1e-9 * step; k += 1.0) {
         addTick(ticks, function, k * step == 0.0 ? 0.0 : k * step, step);
         if (ticks.size() >= static_cast<std::size_t>(2 * wanted)) break;
+    }
+    return ticks;
+}
+
+std::vector<Tick> linearTicks(const TransferFunction& function, int wanted) {
+    // A range that just misses round ends, such as 0.001 to 0.999, may hold but one multiple of the first
+    // step.
+    const double span = function.high - function.low;
+    std::vector<Tick> ticks;
+    for (const double part : {1.0, 2.0, 4.0}) {
+        ticks = ticksAtStep(function, wanted, roundStep(span / (part * wanted)));
+        if (ticks.size() >= 2) break;
     }
     return ticks;
 }

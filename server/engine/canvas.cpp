@@ -106,33 +106,41 @@ void Canvas::text(glm::ivec2 at, TextAlign align, const std::string& line, int f
     }
 }
 
-void Canvas::paragraph(const PixelRect& area, const std::string& words, int fontPixels,
-                       const glm::vec4& colour) {
-    const int width = area.size().x;
-    const int lineHeight = fontPixels * 3 / 2;
-    const int lines = std::max(1, area.size().y / lineHeight);
-    std::vector<std::string> wrappedLines{""};
+std::vector<std::string> Canvas::wrapped(const std::string& words, int fontPixels, int maxWidth) {
+    std::vector<std::string> lines{""};
     std::size_t begin = 0;
     while (begin < words.size()) {
         std::size_t end = words.find(' ', begin);
         if (end == std::string::npos) end = words.size();
         const std::string word = words.substr(begin, end - begin);
         begin = end + 1;
-        std::string& last = wrappedLines.back();
+        std::string& last = lines.back();
         const std::string longer = last.empty() ? word : last + " " + word;
-        if (last.empty() || textWidth(longer, fontPixels) <= width) {
+        if (last.empty() || textWidth(longer, fontPixels) <= maxWidth) {
             last = longer;
         } else {
-            wrappedLines.push_back(word);
+            lines.push_back(word);
         }
     }
-    if (static_cast<int>(wrappedLines.size()) > lines) {
-        wrappedLines.resize(static_cast<std::size_t>(lines));
-        wrappedLines.back() += "…";
+    return lines;
+}
+
+void Canvas::paragraph(const PixelRect& area, const std::string& words, int fontPixels,
+                       const glm::vec4& colour, TextAlign align) {
+    const int width = area.size().x;
+    const int lineHeight = fontPixels * 3 / 2;
+    const auto mostLines = static_cast<std::size_t>(std::max(1, area.size().y / lineHeight));
+    auto lines = wrapped(words, fontPixels, width);
+    if (lines.size() > mostLines) {
+        lines.resize(mostLines);
+        lines.back() += "…";
     }
-    int y = area.low.y + lineHeight / 2;
-    for (const std::string& line : wrappedLines) {
-        text({area.low.x, y}, TextAlign::Left, line, fontPixels, colour, width);
+    const bool centred = align == TextAlign::Centre;
+    const int height = static_cast<int>(lines.size()) * lineHeight;
+    int y = area.low.y + lineHeight / 2 + (centred ? (area.size().y - height) / 2 : 0);
+    const int x = centred ? (area.low.x + area.high.x) / 2 : area.low.x;
+    for (const std::string& line : lines) {
+        text({x, y}, centred ? TextAlign::Centre : TextAlign::Left, line, fontPixels, colour, width);
         y += lineHeight;
     }
 }

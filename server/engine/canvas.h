@@ -32,8 +32,10 @@ public:
     /// Unsupported as pictureFont.
     void text(glm::ivec2 at, TextAlign align, const std::string& line, int fontPixels,
               const glm::vec4& colour, int maxWidth);
-    /// Wrapped at blanks into the area, from its top; what does not fit ends in "…".
-    void paragraph(const PixelRect& area, const std::string& words, int fontPixels, const glm::vec4& colour);
+    /// Wrapped at blanks into the area; what does not fit ends in "…". Left: from the area's top; Centre: in
+    /// its middle, both ways.
+    void paragraph(const PixelRect& area, const std::string& words, int fontPixels, const glm::vec4& colour,
+                   TextAlign align = TextAlign::Left);
 
     /// Throws Unsupported as pictureFont.
     [[nodiscard]] int textWidth(const std::string& line, int fontPixels);
@@ -41,6 +43,7 @@ public:
 
 private:
     [[nodiscard]] Typesetter& typesetter();
+    [[nodiscard]] std::vector<std::string> wrapped(const std::string& words, int fontPixels, int maxWidth);
     [[nodiscard]] std::string shortened(std::string line, int fontPixels, int maxWidth);
     void blend(glm::ivec2 at, const glm::vec4& premultipliedColour);
 

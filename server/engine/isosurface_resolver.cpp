@@ -30,10 +30,26 @@ bool hasValue(const std::vector<Isosurface>& surfaces, double value) {
                        [value](const Isosurface& each) { return each.value == value; });
 }
 
-glm::vec4 surfaceColour(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
-                        std::size_t surface, double value, double opacity) {
-    if (style.colours.empty())
-        return glm::vec4(glm::dvec4(brightened(glm::dvec3(evaluateTransfer(function, value))), opacity));
+/// The part of a diverging map's half, from its neutral colour on, that surfaces take no colours from.
+constexpr double kPalePart = 0.7;
+
+/// The value from whose colour a surface has its own: on the same side of 0, in the same order, never near
+/// it.
+double awayFromZero(const TransferFunction& function, double value) {
+    const double zero = transferPosition(function, 0.0);
+    const double position = transferPosition(function, value);
+    if (value == 0.0 || !(zero > 0.0 && zero < 1.0)) return value;
+    const double end = value > 0.0 ? 1.0 : 0.0;
+    const double part = std::clamp((position - zero) / (end - zero), 0.0, 1.0);
+    return transferValue(function, zero + (kPalePart + (1.0 - kPalePart) * part) * (end - zero));
+}
+
+glm::dvec3 automaticColour(const TransferFunction& function, double value, bool paleAtZero) {
+    const double from = paleAtZero ? awayFromZero(function, value) : value;
+    return brightened(glm::dvec3(evaluateTransfer(function, from)));
+}
+
+glm::vec4 givenColour(const sheet::IsosurfaceStyle& style, std::size_t surface, double opacity) {
     const sheet::Colour& colour = repeating(style.colours, surface);
     return glm::vec4(glm::dvec4(colour.red(), colour.green(), colour.blue(), colour.alpha() * opacity));
 }
@@ -41,7 +57,7 @@ glm::vec4 surfaceColour(const sheet::IsosurfaceStyle& style, const TransferFunct
 } // namespace
 
 std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
-                                        const ValueSummary& summary) {
+                                        const ValueSummary& summary, bool paleAtZero) {
     const std::vector<double> values =
         style.values.empty() ? defaultIsovalues(summary, {function.low, function.high}) : style.values;
     std::vector<Isosurface> surfaces;
@@ -49,7 +65,11 @@ std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style, con
         const double opacity = style.opacities.empty() ? 1.0 : repeating(style.opacities, i);
         for (const double value : {values[i], style.mirror ? -values[i] : values[i]}) {
             if (hasValue(surfaces, value)) continue;
-            surfaces.push_back({value, surfaceColour(style, function, surfaces.size(), value, opacity)});
+            const glm::vec4 colour =
+                style.colours.empty()
+                    ? glm::vec4(glm::dvec4(automaticColour(function, value, paleAtZero), opacity))
+                    : givenColour(style, surfaces.size(), opacity);
+            surfaces.push_back({value, colour});
         }
     }
     if (surfaces.size() > kMaxIsosurfaces) {
@@ -63,9 +83,9 @@ std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style, con
 }
 
 IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style, const TransferFunction& function,
-                                 const ValueSummary& summary) {
+                                 const ValueSummary& summary, bool paleAtZero) {
     IsosurfaceSpec spec;
-    spec.surfaces = resolveSurfaces(style, function, summary);
+    spec.surfaces = resolveSurfaces(style, function, summary, paleAtZero);
     spec.caps = style.caps;
     spec.method = style.method == sheet::IsosurfaceMethod::AlphaTest ? IsosurfaceMethod::AlphaTest
                                                                      : IsosurfaceMethod::Refined;

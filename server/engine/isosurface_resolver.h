@@ -15,13 +15,16 @@ namespace voxsheet::engine {
 /// value (a mirror image has its value's). Without values of its own: defaultIsovalues(). Without colours:
 /// the transfer function's at the value, at the brightness that shading needs.
 /// \param summary  as the cell's transfer function was made from: cells that share a range share isovalues
+/// \param paleAtZero  the transfer function's colours are a diverging map's, neutral at the value 0: then
+/// surfaces take theirs from further out on their side, so that the signs are told apart
 /// Throws InvalidInput (field isovalue or isosurface.mirror) if there are more than kMaxIsosurfaces.
 [[nodiscard]] std::vector<Isosurface> resolveSurfaces(const sheet::IsosurfaceStyle& style,
                                                       const TransferFunction& function,
-                                                      const ValueSummary& summary);
+                                                      const ValueSummary& summary, bool paleAtZero = false);
 
 /// All but what they are coloured by.
 [[nodiscard]] IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style,
-                                               const TransferFunction& function, const ValueSummary& summary);
+                                               const TransferFunction& function, const ValueSummary& summary,
+                                               bool paleAtZero = false);
 
 } // namespace voxsheet::engine

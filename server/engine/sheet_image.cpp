@@ -5,6 +5,7 @@
 #include "engine/canvas.h"
 #include "engine/colour_bar.h"
 #include "engine/tile_identity.h"
+#include "engine/unit_text.h"
 
 #include <algorithm>
 #include <optional>
@@ -189,8 +190,8 @@ private:
             const PixelRect& area = layout_.rowHeaders[i];
             const int row = range_.first.row + static_cast<int>(i);
             const std::string text = headerText(sheet_.rowHeaders, row, sheet::rowName(row));
-            canvas.text((area.low + area.high) / 2, TextAlign::Centre, text, font, palette_.quiet,
-                        area.size().x - 4);
+            const PixelRect inside{area.low + glm::ivec2(font / 3, 0), area.high - glm::ivec2(font / 3, 0)};
+            canvas.paragraph(inside, text, font, palette_.quiet, TextAlign::Centre);
             identity_ += "\n" + text;
         }
     }
@@ -262,9 +263,11 @@ private:
         const FieldMeta& field =
             by ? by->meta->fields.at(static_cast<std::size_t>(by->shown.field))
                : cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
-        std::string caption = field.unit;
+        std::string caption = field.quantity;
+        if (!field.unit.empty()) caption += (caption.empty() ? "" : " / ") + unitText(field.unit);
         if (cell.look->sharedRange && !by) caption += caption.empty() ? "shared" : ", shared";
-        canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet, area.size().x / 2);
+        canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet,
+                    area.size().x * 3 / 4);
     }
 
     /// A line across the bar at each surface's value, and its colour beside it.

@@ -39,7 +39,10 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
         sheet::IsosurfaceStyle surfaces = style.isosurface;
         // Where distances are 0 is the surface that they were taken from.
         if (surfaces.values.empty() && holdsSignedDistances(*look.meta)) surfaces.values = {0.0};
-        look.isosurface = resolveIsosurface(surfaces, look.transfer.function, *summary);
+        const auto* map = look.transfer.map;
+        const bool paleAtZero =
+            look.transfer.diverging && map != nullptr && map->kind == ColourMapKind::Diverging;
+        look.isosurface = resolveIsosurface(surfaces, look.transfer.function, *summary, paleAtZero);
     }
     findNamedVolumes(look, {workbook, sheetIndex, cell, view, *contents, style.timeStep});
     return look;

@@ -20,7 +20,7 @@ void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
     KeySpec colours = typed("isosurface.colors", KeyType::Colours, Automatic{}, group, "swatches",
                             "Colours of the surfaces in the order of the isovalues, the last one for all "
                             "that follow; auto: those of the "
-                            "transfer function.");
+                            "transfer function, of a diverging one those further out.");
     add(withAuto(std::move(colours)));
     add(numberRows(
         "isosurface.opacity", {{"opacity"}, 1, 8, 0.0, 1.0}, NumberTable{{{1.0}}}, group,

@@ -26,6 +26,11 @@ TEST(AxisTicks, RoundNumbersInsideTheRange) {
               (std::vector<std::string>{"-1.0", "-0.5", "0", "0.5", "1.0"}));
 }
 
+TEST(AxisTicks, ARangeThatJustMissesRoundEndsIsDividedMoreFinely) {
+    EXPECT_EQ(labels(axisTicks(over(2e-5, 0.99998), 4)),
+              (std::vector<std::string>{"0.2", "0.4", "0.6", "0.8"}));
+}
+
 TEST(AxisTicks, PowersOfTenOnALogScale) {
     EXPECT_EQ(labels(axisTicks(over(0.01, 100, ValueScale::Log), 5)),
               (std::vector<std::string>{"0.01", "0.1", "1", "10", "100"}));

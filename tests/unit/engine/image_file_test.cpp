@@ -100,6 +100,26 @@ TEST(ImageFile, UnknownEndingsAreRefused) {
     EXPECT_EQ(pixelFormatFor("A.PNG"), PixelFormat::Rgba8);
 }
 
+TEST(Canvas, ACentredParagraphIsWrappedAndStandsInTheMiddle) {
+    Canvas canvas({80, 120}, {0, 0, 0, 1});
+    canvas.paragraph({{0, 0}, {80, 120}}, "induced by the vacancy", 12, {1, 1, 1, 1}, TextAlign::Centre);
+    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
+    std::vector<int> rows;
+    std::vector<int> columns;
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 80; ++x)
+            if (pixels.rgba8[4 * static_cast<std::size_t>(80 * y + x)] > 40) {
+                rows.push_back(y);
+                columns.push_back(x);
+            }
+    ASSERT_FALSE(rows.empty());
+    const auto [top, bottom] = std::minmax_element(rows.begin(), rows.end());
+    const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
+    EXPECT_GT(*bottom - *top, 24) << "more lines than one";
+    EXPECT_NEAR((*top + *bottom) / 2.0, 60.0, 6.0);
+    EXPECT_NEAR((*left + *right) / 2.0, 40.0, 4.0);
+}
+
 TEST(Canvas, PicturesAndBoxesStandWhereTheyArePut) {
     Canvas canvas({10, 6}, {0, 0, 0, 1});
     canvas.put(picture(255), {1, 1});

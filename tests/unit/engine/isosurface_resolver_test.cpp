@@ -73,6 +73,26 @@ TEST(IsosurfaceResolver, TheTransferFunctionsColourIsMadeBrightEnoughForTheLight
     EXPECT_EQ(glm::vec3(surfaces[2].colour), glm::vec3(0.3F, 1.0F, 0.5F)) << "bright as it is";
 }
 
+TEST(IsosurfaceResolver, SurfacesNearZeroOfADivergingMapAreNotPale) {
+    TransferFunction function = greyOver(-4.0, 4.0);
+    function.colours = {{0.0, {0.0, 0.0, 1.0}}, {0.5, {1.0, 1.0, 1.0}}, {1.0, {1.0, 0.0, 0.0}}};
+    sheet::IsosurfaceStyle style;
+    style.values = {0.4, -0.4, 2.0, 0.0, 9.0};
+    const auto pale = resolveSurfaces(style, function, signedNoise());
+    EXPECT_NEAR(pale[0].colour.y, 0.9F, 1e-6F) << "what the transfer function says";
+    const auto surfaces = resolveSurfaces(style, function, signedNoise(), true);
+    EXPECT_EQ(surfaces[0].colour.x, 1.0F);
+    EXPECT_LT(surfaces[0].colour.y, 0.35F);
+    EXPECT_EQ(surfaces[1].colour.z, 1.0F);
+    EXPECT_NEAR(surfaces[1].colour.y, surfaces[0].colour.y, 1e-6F) << "as strong on the other side";
+    EXPECT_LT(surfaces[2].colour.y, surfaces[0].colour.y) << "further out stays further out";
+    EXPECT_EQ(glm::vec3(surfaces[3].colour), glm::vec3(1.0F)) << "0 itself is neutral";
+    EXPECT_EQ(glm::vec3(surfaces[4].colour), glm::vec3(1.0F, 0.0F, 0.0F)) << "beyond the range: its end";
+    style.colours = {*sheet::parseColour("#00ff00")};
+    EXPECT_EQ(glm::vec3(resolveSurfaces(style, function, signedNoise(), true)[0].colour),
+              glm::vec3(0.0F, 1.0F, 0.0F));
+}
+
 TEST(IsosurfaceResolver, SignedDataShowBothSignsAlike) {
     const ValueSummary summary = signedNoise();
     const auto values = valuesOf(resolveSurfaces({}, greyOver(-2.0, 3.0), summary));
