@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -41,6 +42,41 @@ std::string byteText(std::uint64_t bytes) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g %s", number, units[unit]);
     return text;
+}
+
+std::uint64_t parseBudget(const std::string& text, const std::string& flag,
+                          std::optional<std::uint64_t> largest) {
+    if (text.empty()) return 0;
+    const std::string bounds =
+        "from " + byteText(kSmallestBudgetBytes) + " to " +
+        (largest ? "this machine's memory of " + byteText(*largest) : std::string("the device's memory"));
+    const std::string advice = "give a number " + bounds + ", for example 512M or 2GiB";
+    std::uint64_t bytes = 0;
+    try {
+        bytes = parseBytes(text, flag);
+    } catch (const InvalidInput&) {
+        throw InvalidInput(flag, "`" + text + "` is no number of bytes above 0", advice).withField(flag);
+    }
+    if (bytes < kSmallestBudgetBytes)
+        throw InvalidInput(flag, "`" + text + "` is too small for anything", advice).withField(flag);
+    if (largest && bytes > *largest)
+        throw InvalidInput(flag, "`" + text + "` is more than this machine has", advice).withField(flag);
+    return bytes;
+}
+
+std::string byteText(std::uint64_t bytes) {
+    static constexpr std::array<const char*, 5> units{"bytes", "KiB", "MiB", "GiB", "TiB"};
+    auto number = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    while (number >= 1024.0 && unit + 1 < units.size()) {
+        number /= 1024.0;
+        ++unit;
+    }
+    std::array<char, 32> text{};
+    const double rounded = std::round(number * 10.0) / 10.0;
+    const bool whole = rounded == std::floor(rounded);
+    std::snprintf(text.data(), text.size(), whole ? "%.0f %s" : "%.1f %s", rounded, units[unit]);
+    return text.data();
 }
 
 } // namespace voxsheet

@@ -143,8 +143,10 @@ private:
     }
 
     void publishState() {
+        const ResidencyState now = renderer_ ? renderer_->residency().state() : ResidencyState{};
+        if (now.evictions > 0 && options_.onFirstEviction) std::exchange(options_.onFirstEviction, {})();
         const std::scoped_lock lock(stateMutex_);
-        state_ = renderer_ ? renderer_->residency().state() : ResidencyState{};
+        state_ = now;
     }
 
     /// Draws the job's next tile, or ends the job.

@@ -19,6 +19,8 @@ namespace voxsheet {
 struct RenderOptions {
     int device = -1;                      ///< --device; -1 = choose
     std::uint64_t textureBudgetBytes = 0; ///< 0 = a stated share of the device's memory (llvmpipe: of RAM)
+    std::function<void()>
+        onFirstEviction; ///< called on the render thread; must not block or throw; may be empty
 };
 
 enum class FramePriority { Interactive, Final, Export };
@@ -30,7 +32,8 @@ enum class FramePriority { Interactive, Final, Export };
 /// waiting at destruction throw Cancelled.
 class RenderThread {
 public:
-    /// Throws GpuError if no usable EGL is there (the text names the package to install).
+    /// Throws GpuError if no usable EGL is there (the text names the package to install), InvalidInput (with
+    /// field --texture-budget) for a budget above the device's memory.
     RenderThread(std::shared_ptr<const VolumeProvider> volumes, const RenderOptions& options);
     ~RenderThread();
     RenderThread(const RenderThread&) = delete;

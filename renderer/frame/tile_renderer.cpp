@@ -1,5 +1,6 @@
 #include "frame/tile_renderer.h"
 
+#include "base/byte_size.h"
 #include "base/errors.h"
 #include "base/log.h"
 #include "volume/clip_shape_provider.h"
@@ -37,12 +38,21 @@ std::string budgetNote(const TileSpec& tile, const TileLevels& levels, std::uint
                                  ? "drawn at level " + std::to_string(levels.volume) + " instead of " +
                                        std::to_string(asked.volume)
                                  : std::string("a clip object or colouring volume is drawn coarser");
-    return what + ": the texture budget of " + std::to_string(budgetBytes) +
-           " bytes does not hold more; raise --texture-budget";
+    return what + ": the texture budget of " + byteText(budgetBytes) +
+           " does not hold more; raise --texture-budget";
 }
 
 RenderDevice withBudget(RenderDevice device, std::uint64_t budgetBytes) {
-    if (budgetBytes > 0) device.textureBudgetBytes = budgetBytes;
+    if (budgetBytes == 0) return device;
+    if (device.memoryBytes > 0 && budgetBytes > device.memoryBytes) {
+        throw InvalidInput("--texture-budget",
+                           byteText(budgetBytes) + " is more than the " + byteText(device.memoryBytes) +
+                               " that " + device.renderer + " has",
+                           "give at most that, or leave it out for " + byteText(device.textureBudgetBytes))
+            .withField("--texture-budget");
+    }
+    device.textureBudgetBytes = budgetBytes;
+    device.textureBudgetReason = "as asked for";
     return device;
 }
 

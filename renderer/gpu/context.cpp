@@ -143,7 +143,10 @@ void Context::describe() {
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storageBlockBytes);
     limits_.storageBlockBytes = storageBlockBytes;
     device_.maxTextureSize3d = limits_.textureSize3d;
-    device_.textureBudgetBytes = defaultTextureBudget(device_.software);
+    const TextureMemory memory = textureMemory(device_.software);
+    device_.memoryBytes = memory.deviceBytes;
+    device_.textureBudgetBytes = memory.defaultBudget;
+    device_.textureBudgetReason = memory.reason;
     const char* disabled = std::getenv("VOXSHEET_DISABLE_WORKAROUNDS");
     workarounds_ = workaroundsFor(device_.renderer, disabled == nullptr ? "" : disabled);
     device_.workarounds = workaroundNames(workarounds_);

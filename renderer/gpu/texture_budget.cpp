@@ -1,12 +1,11 @@
 #include "gpu/texture_budget.h"
 
-#include <epoxy/gl.h>
+#include "base/host_memory.h"
 
-#include <unistd.h>
+#include <epoxy/gl.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 namespace voxsheet::gpu {
 
@@ -14,19 +13,6 @@ namespace {
 
 constexpr std::uint64_t kKiB = 1024;
 constexpr std::uint64_t kFallbackBytes = kKiB * kKiB * kKiB;
-
-std::uint64_t hostMemoryBytes() {
-    const long pages = sysconf(_SC_PHYS_PAGES);
-    const long pageBytes = sysconf(_SC_PAGESIZE);
-    std::uint64_t bytes = pages > 0 && pageBytes > 0
-                              ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageBytes)
-                              : 4 * kFallbackBytes;
-    // A container's limit, version 2 of control groups; the file says "max" when there is none.
-    std::ifstream limitFile("/sys/fs/cgroup/memory.max");
-    std::uint64_t limit = 0;
-    if (limitFile >> limit && limit > 0) bytes = std::min(bytes, limit);
-    return bytes;
-}
 
 /// GPU memory in KiB, 0 when the driver does not tell.
 std::uint64_t gpuMemoryKiB() {
@@ -45,10 +31,14 @@ std::uint64_t gpuMemoryKiB() {
 
 } // namespace
 
-std::uint64_t defaultTextureBudget(bool software) {
-    if (software) return hostMemoryBytes() / 4;
+TextureMemory textureMemory(bool software) {
+    if (software) {
+        const std::uint64_t bytes = hostMemoryBytes();
+        return {bytes, bytes / 4, "a quarter of this machine's memory"};
+    }
     const std::uint64_t bytes = gpuMemoryKiB() * kKiB;
-    return bytes == 0 ? kFallbackBytes : bytes / 10 * 6;
+    if (bytes == 0) return {0, kFallbackBytes, "1 GiB: the driver does not tell the device's memory"};
+    return {bytes, bytes / 10 * 6, "six tenths of the device's memory"};
 }
 
 } // namespace voxsheet::gpu

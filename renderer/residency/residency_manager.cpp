@@ -1,5 +1,6 @@
 #include "residency/residency_manager.h"
 
+#include "base/byte_size.h"
 #include "base/errors.h"
 #include "base/log.h"
 #include "gpu/context.h"
@@ -282,9 +283,9 @@ void ResidencyManager::beginAtAnyPrice(PendingTexture& pending) {
     const std::uint64_t leasedBytes = table_->leasedBytes();
     if (leasedBytes + pending.bytes() > budgetBytes_) {
         throw LimitExceeded(
-            "a volume of " + std::to_string(pending.bytes()) + " bytes",
-            "the texture budget is " + std::to_string(budgetBytes_) + " bytes" +
-                (leasedBytes > 0 ? ", of which the same tile holds " + std::to_string(leasedBytes) : ""),
+            "a volume of " + byteText(pending.bytes()),
+            "the texture budget is " + byteText(budgetBytes_) +
+                (leasedBytes > 0 ? ", of which the same tile holds " + byteText(leasedBytes) : ""),
             "draw a coarser level, or raise --texture-budget")
             .withField("texture-budget");
     }

@@ -59,9 +59,12 @@ void FileHandle::readAll(std::uint64_t offset, std::span<std::byte> out) const {
 }
 
 void FileHandle::dropPages(std::uint64_t offset, std::uint64_t bytes) const {
-    // The kernel leaves pages that are touched only in part.
+    // The kernel leaves what is touched only in part, and it may hold what was just written in units of up to
+    // 2 MiB (large folios): the beginning is rounded down to one, so that a file that is dropped piece by
+    // piece from its start is dropped whole.
+    constexpr std::uint64_t largest = std::uint64_t{2} << 20;
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    const std::uint64_t begin = offset / page * page;
+    const std::uint64_t begin = offset / largest * largest;
     const std::uint64_t end = (offset + bytes + page - 1) / page * page;
     ::posix_fadvise(descriptor_, static_cast<off_t>(begin), static_cast<off_t>(end - begin),
                     POSIX_FADV_DONTNEED);

@@ -25,7 +25,7 @@ public:
     /// Fills all of `out`. Throws IoError, also when the file ends before.
     void readAll(std::uint64_t offset, std::span<std::byte> out) const;
     /// The pages that hold these bytes leave the operating system's cache, if they are written and nobody has
-    /// them mapped. Only advice: where it is not taken, nothing happens.
+    /// them mapped; with them up to 2 MiB before. Only advice: where it is not taken, nothing happens.
     void dropPages(std::uint64_t offset, std::uint64_t bytes) const;
     /// Throws IoError; a full disk is named as such.
     void writeAll(std::uint64_t offset, std::span<const std::byte> bytes) const;

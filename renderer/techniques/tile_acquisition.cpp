@@ -1,5 +1,6 @@
 #include "techniques/tile_acquisition.h"
 
+#include "base/byte_size.h"
 #include "base/errors.h"
 
 #include <algorithm>
@@ -106,9 +107,8 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
         if (sum <= residency.budgetBytes()) return levels;
         std::erase_if(parts, [](const LevelBytes& part) { return *part.level >= part.coarsest; });
         if (parts.empty()) {
-            throw LimitExceeded("the coarsest levels that this picture needs take " + std::to_string(sum) +
-                                    " bytes",
-                                "the texture budget is " + std::to_string(residency.budgetBytes()) + " bytes",
+            throw LimitExceeded("the coarsest levels that this picture needs take " + byteText(sum),
+                                "the texture budget is " + byteText(residency.budgetBytes()),
                                 "raise --texture-budget")
                 .withField("texture-budget");
         }

@@ -2,6 +2,7 @@
 
 #include "base/byte_size.h"
 #include "base/errors.h"
+#include "base/host_memory.h"
 #include "sheet/bounded_json.h"
 #include "sheet/commands.h"
 #include "sheet/dataset_names.h"
@@ -107,9 +108,11 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
     app.add_option("--store-limit", arguments.storeLimit, "Bytes the store may take, e.g. 20G");
     app.add_option("--upload-dir", arguments.uploadDir, "Folder that uploaded files are kept in");
     app.add_option("--texture-budget", arguments.textureBudget,
-                   "Bytes of textures, e.g. 1G (default: a share of the device's memory)");
+                   "Bytes of textures, e.g. 512M or 1GiB (default: six tenths of the GPU's memory; a quarter "
+                   "of RAM where there is none)");
     app.add_option("--memory-budget", arguments.memoryBudget,
-                   "Bytes that one import or formula may take (default: a quarter of RAM)");
+                   "Bytes of samples kept in host memory, and what one import or formula may take (default: "
+                   "a quarter of RAM)");
     app.add_option("--threads", arguments.threads, "Worker threads (default: the cores this process may use)")
         ->check(CLI::Range(0, 1024));
     app.add_option("--device", arguments.device, "EGL device to draw on (default: chosen; see GET /api/v1)")
@@ -126,8 +129,9 @@ engine::EngineOptions engineOptions(const EngineArguments& arguments) {
     options.uploadDir =
         arguments.uploadDir.empty() ? cacheFolder() / "uploads" : fs::path(arguments.uploadDir);
     options.storeLimitBytes = parseBytes(arguments.storeLimit, "--store-limit");
-    options.textureBudgetBytes = parseBytes(arguments.textureBudget, "--texture-budget");
-    options.memoryBudgetBytes = parseBytes(arguments.memoryBudget, "--memory-budget");
+    // The device's memory is known once it is open: what is above it is refused then.
+    options.textureBudgetBytes = parseBudget(arguments.textureBudget, "--texture-budget", std::nullopt);
+    options.memoryBudgetBytes = parseBudget(arguments.memoryBudget, "--memory-budget", hostMemoryBytes());
     options.threads = arguments.threads;
     options.device = arguments.device;
     std::set<fs::path> roots;

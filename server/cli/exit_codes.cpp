@@ -16,7 +16,10 @@ int reportFailure(const std::string& text) {
 }
 
 int reportFailure(const std::exception& error) {
-    if (dynamic_cast<const Error*>(&error) != nullptr) return reportFailure(std::string(error.what()));
+    if (const auto* known = dynamic_cast<const Error*>(&error)) {
+        const int code = reportFailure(std::string(error.what()));
+        return known->field().rfind("--", 0) == 0 ? kExitUsage : code;
+    }
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
         return reportFailure(
             std::string("memory: there is not enough of it; close other programs or load fewer datasets"));

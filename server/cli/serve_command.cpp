@@ -1,3 +1,4 @@
+#include "base/byte_size.h"
 #include "base/log.h"
 #include "cli/commands.h"
 #include "cli/demo/demo_files.h"
@@ -85,6 +86,13 @@ void announce(const http::WebServer& server) {
     std::fflush(stdout);
 }
 
+void announceDevice(const RenderDevice& device, const engine::EngineOptions& options) {
+    logInfo("drawing on " + device.renderer + " (" + device.eglPlatform + "): " + device.reason);
+    logInfo("budgets: textures " + byteText(device.textureBudgetBytes) + " (" + device.textureBudgetReason +
+            "), samples in host memory " + byteText(options.memoryBudgetBytes) +
+            "; --texture-budget and --memory-budget change them");
+}
+
 void saveWhatIsNotSaved(const engine::Engine& engine) {
     try {
         if (const auto file = engine.saveRecovery())
@@ -98,8 +106,7 @@ int runServe(const ServeArguments& arguments) {
     const auto signals = blockStopSignals();
     const auto options = engineOptions(arguments.engine);
     engine::Engine engine(options);
-    if (const auto* device = engine.device())
-        logInfo("drawing on " + device->renderer + " (" + device->eglPlatform + "): " + device->reason);
+    if (const auto* device = engine.device()) announceDevice(*device, engine.options());
     stream::TileService tiles(engine);
     stream::StreamHub hub(engine, tiles);
     auto web = webOptions(arguments);

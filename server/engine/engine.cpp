@@ -103,7 +103,9 @@ void Engine::removeDataset(const std::string& name) {
     if (shared) return;
     implementation_->datasets.cancel(source);
     // The entry stays open: undo brings the dataset back.
-    if (state.meta && implementation_->thread) implementation_->thread->forget(state.meta->key);
+    if (!state.meta) return;
+    if (implementation_->thread) implementation_->thread->forget(state.meta->key);
+    implementation_->hostCache->forget(state.meta->key);
 }
 
 void Engine::cancelImport(const std::string& name) {
@@ -163,8 +165,16 @@ PreparedTile Engine::prepareTile(const sheet::Workbook& workbook, const std::str
 }
 
 std::future<FrameResult> Engine::render(const std::vector<TileSpec>& tiles, FramePriority priority,
-                                        std::function<bool()> cancelled, PixelFormat format) const {
-    return implementation_->render(tiles, priority, std::move(cancelled), format);
+                                        std::function<bool()> cancelled, PixelFormat format,
+                                        LevelChoice levels) const {
+    return implementation_->render(tiles, priority, std::move(cancelled), format, levels);
+}
+
+void Engine::setShown(const std::string& viewer, std::vector<WantedVolume> volumes) {
+    if (!implementation_->thread) return;
+    const std::lock_guard lock(implementation_->shownMutex);
+    if (auto all = implementation_->shown.replace(viewer, std::move(volumes)))
+        implementation_->thread->setWanted(std::move(*all));
 }
 
 SheetImage Engine::renderSheet(const SheetImageRequest& request) const {
@@ -229,6 +239,8 @@ const RenderDevice* Engine::device() const {
 ResidencyState Engine::residency() const {
     return implementation_->thread ? implementation_->thread->residency() : ResidencyState{};
 }
+
+HostCacheState Engine::hostCache() const { return implementation_->hostCache->state(); }
 
 const EngineOptions& Engine::options() const { return implementation_->options; }
 

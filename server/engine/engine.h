@@ -5,6 +5,7 @@
 #include "engine/cell_state.h"
 #include "engine/dataset_state.h"
 #include "frame/render_thread.h"
+#include "residency/host_cache_state.h"
 #include "sheet/address.h"
 #include "sheet/history.h"
 #include "sheet/style.h"
@@ -33,8 +34,10 @@ struct EngineOptions {
     std::filesystem::path uploadDir;
     std::vector<std::filesystem::path> roots; ///< folders that datasets may be opened from
     std::uint64_t textureBudgetBytes = 0;     ///< 0 = default of the device
-    std::uint64_t memoryBudgetBytes = 0;      ///< 0 = a quarter of RAM; also what one import may use
-    int threads = 0;                          ///< 0 = the cores this process may run on
+    /// Samples kept in host memory, so that what leaves the textures need not be read from disk again; 0 = a
+    /// quarter of RAM. Also what one import or formula may use.
+    std::uint64_t memoryBudgetBytes = 0;
+    int threads = 0; ///< 0 = the cores this process may run on
     int device = -1;
     std::filesystem::path importer; ///< voxsheet-import; empty = beside this program
     std::filesystem::path
@@ -215,7 +218,12 @@ public:
                                            const TileQuality& quality) const;
     [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& tiles, FramePriority priority,
                                                   std::function<bool()> cancelled = {},
-                                                  PixelFormat format = PixelFormat::Rgba8) const;
+                                                  PixelFormat format = PixelFormat::Rgba8,
+                                                  LevelChoice levels = LevelChoice::Exact) const;
+    /// What a viewer (a page, by any name of its own) looks at, and what it may look at next; replaces what
+    /// it showed before. Empty: nothing any more. What all viewers show together is evicted last and brought
+    /// in first.
+    void setShown(const std::string& viewer, std::vector<WantedVolume> volumes);
     [[nodiscard]] SheetImage renderSheet(const SheetImageRequest& request) const;
     /// One value per used cell at a world point; or at what lies under a pixel of a cell's picture, (0, 0)
     /// being its top left corner (empty when the ray misses the cell's volume, or the cell shows none).
@@ -233,7 +241,8 @@ public:
 
     // --- state ---
     [[nodiscard]] const RenderDevice* device() const; ///< null when options.render is false
-    [[nodiscard]] ResidencyState residency() const;
+    [[nodiscard]] ResidencyState residency() const;   ///< textures
+    [[nodiscard]] HostCacheState hostCache() const;   ///< samples in host memory, and what was read from disk
     [[nodiscard]] const EngineOptions& options() const;
     [[nodiscard]] std::uint64_t
     addListener(ChangeListener listener); ///< called from any thread; must not block

@@ -1,5 +1,6 @@
 #include "engine/engine_implementation.h"
 
+#include "base/host_memory.h"
 #include "base/log.h"
 #include "engine/child_importer.h"
 #include "engine/colour_map.h"
@@ -25,8 +26,7 @@ EngineOptions completed(EngineOptions options) {
     if (options.uploadDir.empty()) options.uploadDir = options.storeDir.parent_path() / "uploads";
     if (options.recoveryDir.empty()) options.recoveryDir = options.uploadDir;
     if (options.memoryBudgetBytes == 0) {
-        const auto pages = static_cast<std::uint64_t>(std::max(1L, ::sysconf(_SC_PHYS_PAGES)));
-        options.memoryBudgetBytes = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4;
+        options.memoryBudgetBytes = hostMemoryBytes() / 4;
     }
     if (options.storeLimitBytes == 0) options.storeLimitBytes = 20ULL << 30U;
     if (options.threads <= 0) {
@@ -50,11 +50,23 @@ std::shared_ptr<const sheet::KeyTable> keyTable() {
     return std::make_shared<const sheet::KeyTable>(sheet::makeKeyTable(std::move(maps)));
 }
 
+/// Keeps nothing as long as all textures fit: a second copy would be of no use.
+std::shared_ptr<HostVolumeCache> makeHostCache(const EngineOptions& options,
+                                               std::shared_ptr<const VolumeProvider> volumes) {
+    return std::make_shared<HostVolumeCache>(std::move(volumes),
+                                             HostCacheOptions{.budgetBytes = options.memoryBudgetBytes,
+                                                              .pageCache = PageCacheUse::DropOverBudget,
+                                                              .keep = false});
+}
+
 std::unique_ptr<RenderThread> renderThread(const EngineOptions& options,
-                                           std::shared_ptr<const VolumeProvider> volumes) {
+                                           const std::shared_ptr<HostVolumeCache>& volumes) {
     if (!options.render) return nullptr;
-    return std::make_unique<RenderThread>(std::move(volumes),
-                                          RenderOptions{options.device, options.textureBudgetBytes});
+    RenderOptions rendering;
+    rendering.device = options.device;
+    rendering.textureBudgetBytes = options.textureBudgetBytes;
+    rendering.onFirstEviction = [volumes] { volumes->keepFromNowOn(); };
+    return std::make_unique<RenderThread>(volumes, rendering);
 }
 
 std::string environmentOf(const RenderThread* thread) {
@@ -85,7 +97,7 @@ Engine::Implementation::Implementation(EngineOptions given)
       presets(sheet::parseStylePresets(configFile("style_presets.json"), *keys)),
       datasets(options, childImporter(options),
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
-      thread(renderThread(options, datasets.volumes())),
+      hostCache(makeHostCache(options, datasets.volumes())), thread(renderThread(options, hostCache)),
       tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), namedVolumeSources(datasets),
             environmentOf(thread.get())),
       probes(*keys, datasets.volumes()),
@@ -229,11 +241,15 @@ std::size_t Engine::Implementation::indexOf(const sheet::Workbook& snapshot, con
 
 std::future<FrameResult> Engine::Implementation::render(const std::vector<TileSpec>& specs,
                                                         FramePriority priority,
-                                                        std::function<bool()> cancelled,
-                                                        PixelFormat format) const {
+                                                        std::function<bool()> cancelled, PixelFormat format,
+                                                        LevelChoice levels) const {
     if (!thread)
         throw Unsupported("pictures", "this engine was started without a renderer", "start it with one");
-    return thread->submit({specs, format}, priority, std::move(cancelled));
+    FrameSpec frame;
+    frame.tiles = specs;
+    frame.format = format;
+    frame.levels = levels;
+    return thread->submit(std::move(frame), priority, std::move(cancelled));
 }
 
 } // namespace voxsheet::engine

@@ -4,8 +4,10 @@
 #include "engine/dataset_keeper.h"
 #include "engine/engine.h"
 #include "engine/probe_service.h"
+#include "engine/shown_volumes.h"
 #include "engine/tile_maker.h"
 #include "engine/workbook_keeper.h"
+#include "residency/host_volume_cache.h"
 
 #include <map>
 #include <memory>
@@ -54,7 +56,8 @@ public:
     [[nodiscard]] static std::size_t indexOf(const sheet::Workbook& snapshot, const std::string& sheetName);
 
     [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& specs, FramePriority priority,
-                                                  std::function<bool()> cancelled, PixelFormat format) const;
+                                                  std::function<bool()> cancelled, PixelFormat format,
+                                                  LevelChoice levels) const;
 
     EngineOptions options;
     std::shared_ptr<const sheet::KeyTable> keys;
@@ -63,7 +66,10 @@ public:
     std::map<std::uint64_t, ChangeListener> listeners;
     std::uint64_t lastListener = 0;
     DatasetKeeper datasets;
+    std::shared_ptr<HostVolumeCache> hostCache;
     std::unique_ptr<RenderThread> thread;
+    std::mutex shownMutex; ///< held until the render thread has been told, so that the newest wins
+    ShownVolumes shown;
     TileMaker tiles;
     ProbeService probes;
     WorkbookKeeper workbook;

@@ -219,7 +219,7 @@ private:
         std::string code = cell.tile.code;
         std::string sentence = cell.tile.message;
         if (picture != nullptr) {
-            code = "#GPU!";
+            code = picture->errorKind == ErrorKind::LimitExceeded ? "#MEM!" : "#GPU!";
             sentence = picture->error;
         }
         const Palette colours = paletteFor(cell.background);

@@ -1,5 +1,6 @@
 #include "stream/stream_client.h"
 
+#include "engine/shown_volumes.h"
 #include "stream/message.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ constexpr auto kRestAfter = 150ms;     ///< no change for so long: final picture
 constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
 constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
+constexpr std::size_t kMostNeighbours = 32; ///< cells beside the visible ones that are got ready
 constexpr double kFinalChunkMs = 120.0; ///< final pictures are sent in chunks of about this time, so that a
                                         ///< new gesture is not kept waiting
 
@@ -37,6 +39,8 @@ std::string cellState(const engine::PreparedTile& tile) {
 StreamClient::StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles)
     : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles),
       version_(engine.version()) {}
+
+StreamClient::~StreamClient() { engine_.setShown(id_, {}); }
 
 void StreamClient::update(const StreamUpdate& update) {
     const std::lock_guard lock(mutex_);
@@ -170,11 +174,36 @@ void StreamClient::addTile(Plan& plan, const sheet::Workbook& workbook, const Cl
         return;
     }
     ++plan.visibleCells;
+    const auto volumes = engine::volumesOf(*prepared.spec, WantedPriority::Visible);
+    plan.shown.insert(plan.shown.end(), volumes.begin(), volumes.end());
     if (shown != shown_.end() && shown->second.final && shown->second.identity == prepared.identity) {
         ++plan.finalCells;
         return;
     }
     plan.tiles.push_back({tile, std::move(prepared), nullptr, 0});
+}
+
+void StreamClient::addNeighbours(Plan& plan, const sheet::Workbook& workbook, const ClientView& view) const {
+    if (view.tiles.empty()) return;
+    sheet::Address low = view.tiles.front().cell;
+    sheet::Address high = low;
+    for (const auto& tile : view.tiles) {
+        low = {std::min(low.column, tile.cell.column), std::min(low.row, tile.cell.row)};
+        high = {std::max(high.column, tile.cell.column), std::max(high.row, tile.cell.row)};
+    }
+    std::size_t added = 0;
+    for (const auto& [cell, content] : sheet::sheetNamed(workbook, sheet_).cells) {
+        const bool inside = cell.column >= low.column && cell.column <= high.column && cell.row >= low.row &&
+                            cell.row <= high.row;
+        const bool near = cell.column >= low.column - 1 && cell.column <= high.column + 1 &&
+                          cell.row >= low.row - 1 && cell.row <= high.row + 1;
+        if (inside || !near || content.source.empty()) continue;
+        const auto prepared = engine_.prepareTile(workbook, sheet_, cell, view.overrides, {});
+        if (!prepared.spec) continue;
+        const auto volumes = engine::volumesOf(*prepared.spec, WantedPriority::Soon);
+        plan.shown.insert(plan.shown.end(), volumes.begin(), volumes.end());
+        if (++added == kMostNeighbours) return;
+    }
 }
 
 StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) {
@@ -184,6 +213,11 @@ StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) 
     plan.workbookVersion = workbook->version;
     for (const auto& tile : view.tiles)
         addTile(plan, *workbook, view, tile);
+    if (plan.shown != shownVolumes_) {
+        shownVolumes_ = plan.shown;
+        addNeighbours(plan, *workbook, view);
+        engine_.setShown(id_, std::move(plan.shown));
+    }
     for (auto& pending : plan.tiles)
         pending.image = tiles_.cached(encodedIdentity(pending.prepared.identity, encoding(false)));
     for (const auto& pending : plan.tiles)
@@ -231,10 +265,11 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
     const auto start = Clock::now();
     FrameResult frame;
     try {
-        frame =
-            engine_
-                .render(specs, plan.interactive ? FramePriority::Interactive : FramePriority::Final, needless)
-                .get();
+        frame = engine_
+                    .render(specs, plan.interactive ? FramePriority::Interactive : FramePriority::Final,
+                            needless, PixelFormat::Rgba8,
+                            plan.interactive ? LevelChoice::AtHand : LevelChoice::WithinBudget)
+                    .get();
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Cancelled) throw;
         return false;
@@ -244,7 +279,7 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
         auto& pending = plan.tiles[drawnBy[i]];
         const auto& pixels = frame.tiles[i];
         if (!pixels.error.empty()) {
-            pending.prepared.code = "#GPU!";
+            pending.prepared.code = pixels.errorKind == ErrorKind::LimitExceeded ? "#MEM!" : "#GPU!";
             pending.prepared.message = pixels.error;
             return;
         }
@@ -258,13 +293,17 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
         image->level = pixels.level;
         image->renderMs = pixels.renderMs;
         image->final = !plan.interactive;
+        image->awaited = pixels.awaited;
+        image->note = pixels.note;
         pending.image = image;
     });
     double pixels = 0.0;
     for (const auto index : drawnBy) {
         const auto& pending = plan.tiles[index];
         pixels += static_cast<double>(pending.tile.sizePixels.x) * pending.tile.sizePixels.y;
-        if (pending.image && pending.image->final) tiles_.remember(pending.image);
+        // A coarser level than its identity says is for this page alone.
+        if (pending.image && pending.image->final && pending.image->note.empty())
+            tiles_.remember(pending.image);
     }
     quality_.measured(pixels, plan.step, milliseconds(Clock::now() - start));
     return true;
@@ -310,8 +349,11 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         json["renderMs"] = image.renderMs;
         json["encodeMs"] = image.encodeMs;
         json["final"] = image.final;
+        if (!image.note.empty()) json["note"] = image.note;
         push(json, image.bytes);
-        shown_[pending.tile.cell] = Shown{pending.prepared.identity, {}, image.final};
+        // What stands in for a volume that is on its way is drawn again.
+        shown_[pending.tile.cell] =
+            Shown{image.awaited ? std::string{} : pending.prepared.identity, {}, image.final};
         ++timing.tiles;
         timing.level = std::max(timing.level, image.level);
     }

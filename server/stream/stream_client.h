@@ -18,6 +18,9 @@ namespace voxsheet::stream {
 class StreamClient {
 public:
     StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles);
+    ~StreamClient(); ///< nobody looks any more
+    StreamClient(const StreamClient&) = delete;
+    StreamClient& operator=(const StreamClient&) = delete;
 
     void update(const StreamUpdate& update);
     void changed(engine::ChangeKind kind, std::uint64_t version);
@@ -53,12 +56,15 @@ private:
         double pixels = 0.0;
         std::size_t finalCells = 0;
         std::size_t visibleCells = 0;
+        std::vector<WantedVolume> shown; ///< by all visible cells, the final ones too
     };
 
     void queueNotices();
     [[nodiscard]] Plan plan(const ClientView& view, bool interactive);
     void addTile(Plan& plan, const sheet::Workbook& workbook, const ClientView& view,
                  const ViewTile& tile) const;
+    /// Cells just outside of the view: where one scrolls to next.
+    void addNeighbours(Plan& plan, const sheet::Workbook& workbook, const ClientView& view) const;
     [[nodiscard]] EncodeSettings encoding(bool interactive) const;
     /// Draws and encodes; false when a newer view made the work needless.
     bool draw(Plan& plan, std::uint64_t viewId);
@@ -88,6 +94,7 @@ private:
     // Of the writer thread alone.
     std::deque<std::string> outbox_;
     std::map<sheet::Address, Shown> shown_;
+    std::vector<WantedVolume> shownVolumes_; ///< as told to the engine last, without neighbours
     InteractiveQuality quality_{50.0};
     std::uint64_t frame_ = 0;
     std::uint64_t sequence_ = 0;

@@ -79,7 +79,11 @@ std::shared_ptr<const EncodedImage> TileService::cellImage(const CellImageReques
     const Done done{*this, identity};
     auto frame = engine_.render({spec}, FramePriority::Final, cancelled).get();
     auto& pixels = frame.tiles.at(0);
-    if (!pixels.error.empty()) throw GpuError("cell " + sheet::addressName(tile.cell), pixels.error);
+    if (!pixels.error.empty()) {
+        const auto cell = "cell " + sheet::addressName(tile.cell);
+        if (pixels.errorKind == ErrorKind::LimitExceeded) throw LimitExceeded(cell, pixels.error);
+        throw GpuError(cell, pixels.error);
+    }
     auto image = std::make_shared<EncodedImage>();
     const auto start = Clock::now();
     image->bytes = encodeImage(pixels, request.encoding);

@@ -23,7 +23,9 @@ struct EncodedImage {
     int level = 0;
     double renderMs = 0.0;
     double encodeMs = 0.0;
-    bool final = true; ///< false: drawn from data that is still arriving; not to be stored by anyone
+    bool final = true;    ///< false: drawn from data that is still arriving; not to be stored by anyone
+    bool awaited = false; ///< something better is being brought in: to be asked for again
+    std::string note;     ///< why it is coarser than asked for, when it stays so
 };
 
 struct CellImageRequest {

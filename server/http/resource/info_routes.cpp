@@ -27,11 +27,13 @@ nlohmann::json rootsJson(const engine::Engine& engine) {
 Response info(const ApiContext& context) {
     const auto& options = context.engine.options();
     const auto residency = context.engine.residency();
+    const auto* device = context.engine.device();
     return jsonAnswer(nlohmann::json{{"name", "Voxsheet"},
                                      {"version", context.settings.version},
                                      {"device", deviceJson(context.engine)},
                                      {"budgets",
                                       {{"texture", residency.budgetBytes},
+                                       {"texture_why", device != nullptr ? device->textureBudgetReason : ""},
                                        {"memory", options.memoryBudgetBytes},
                                        {"store", options.storeLimitBytes}}},
                                      {"limits",

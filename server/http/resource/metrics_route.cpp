@@ -60,16 +60,54 @@ void addEngine(MetricsText& out, const ApiContext& context) {
     out.family("voxsheet_datasets", "gauge", "Datasets, by state of their import");
     for (const auto& [state, count] : states)
         out.value(count, "{state=\"" + state + "\"}");
-    const auto residency = context.engine.residency();
-    out.family("voxsheet_texture_bytes", "gauge", "Bytes of textures on the device")
-        .value(residency.residentBytes);
-    out.family("voxsheet_texture_budget_bytes", "gauge", "Budget of textures").value(residency.budgetBytes);
-    out.family("voxsheet_textures", "gauge", "Textures on the device").value(residency.textures);
-    out.family("voxsheet_texture_uploaded_bytes_total", "counter", "Bytes uploaded")
-        .value(residency.uploadedBytes);
-    out.family("voxsheet_texture_evictions_total", "counter", "Textures evicted").value(residency.evictions);
     out.family("voxsheet_workbook_version", "gauge", "Version of the workbook")
         .value(context.engine.version());
+}
+
+void addTextures(MetricsText& out, const ResidencyState& state) {
+    out.family("voxsheet_texture_bytes", "gauge", "Bytes of textures on the device")
+        .value(state.residentBytes);
+    out.family("voxsheet_texture_kind_bytes", "gauge", "Bytes of textures on the device, by what they hold")
+        .value(state.sampleBytes, "{kind=\"samples\"}")
+        .value(state.gradientBytes, "{kind=\"gradients\"}")
+        .value(state.clipObjectBytes, "{kind=\"clip_objects\"}");
+    out.family("voxsheet_texture_budget_bytes", "gauge", "Budget of textures").value(state.budgetBytes);
+    out.family("voxsheet_texture_pinned_bytes", "gauge", "Bytes of textures that are being drawn from")
+        .value(state.pinnedBytes);
+    out.family("voxsheet_texture_visible_bytes", "gauge", "Bytes of textures that some page shows")
+        .value(state.visibleBytes);
+    out.family("voxsheet_textures", "gauge", "Textures on the device").value(state.textures);
+    out.family("voxsheet_texture_uploads_total", "counter", "Volumes uploaded").value(state.uploads);
+    out.family("voxsheet_texture_uploaded_bytes_total", "counter", "Bytes uploaded")
+        .value(state.uploadedBytes);
+    out.family("voxsheet_texture_upload_seconds_total", "counter",
+               "Time spent on converting and uploading volumes and on building gradients")
+        .value(state.uploadMs / 1000.0);
+    out.family("voxsheet_texture_read_seconds_total", "counter",
+               "Time that uploads waited for samples, from host memory or disk")
+        .value(state.readMs / 1000.0);
+    out.family("voxsheet_texture_evictions_total", "counter", "Textures evicted").value(state.evictions);
+    out.family("voxsheet_texture_queue", "gauge", "Textures waiting to be brought in")
+        .value(state.queuedUploads);
+    out.family("voxsheet_texture_queue_bytes", "gauge", "Bytes still to be filled in them")
+        .value(state.queuedBytes);
+}
+
+void addHostMemory(MetricsText& out, const HostCacheState& state) {
+    out.family("voxsheet_host_cache_bytes", "gauge", "Bytes of samples kept in host memory")
+        .value(state.bytes);
+    out.family("voxsheet_host_cache_budget_bytes", "gauge", "Budget of samples in host memory")
+        .value(state.budgetBytes);
+    out.family("voxsheet_host_cache_hits_total", "counter", "Blocks of samples found in host memory")
+        .value(state.hits);
+    out.family("voxsheet_host_cache_misses_total", "counter", "Blocks of samples that had to be read")
+        .value(state.misses);
+    out.family("voxsheet_host_cache_evictions_total", "counter", "Blocks of samples given up")
+        .value(state.evictions);
+    out.family("voxsheet_store_read_bytes_total", "counter", "Bytes of samples read from the volume store")
+        .value(state.diskBytes);
+    out.family("voxsheet_store_read_seconds_total", "counter", "Time spent on reading them")
+        .value(state.diskMs / 1000.0);
 }
 
 void addStreams(MetricsText& out, const ApiContext& context) {
@@ -95,6 +133,8 @@ void addMetricsRoute(Router& router, const ApiContext& context) {
                         MetricsText out;
                         addServer(out, context);
                         addEngine(out, context);
+                        addTextures(out, context.engine.residency());
+                        addHostMemory(out, context.engine.hostCache());
                         addStreams(out, context);
                         return Response{200, "text/plain; version=0.0.4; charset=utf-8", out.text()};
                     },

@@ -67,12 +67,12 @@ TEST_F(StoreTest, DropsThePagesOfSlicesThatAreNotWantedSoon) {
     const auto file = folder() / "abc" / arrayFileName(0, 0);
     const auto before = cachedPages(file);
     ASSERT_GT(before, 500U);
-    volumes.dropPages(key, 0, dims.z / 2);
-    const auto half = cachedPages(file);
-    if (half == before) GTEST_SKIP() << "this file system takes no advice about its cache";
-    EXPECT_NEAR(static_cast<double>(before - half), 256.0, 1.0) << "1 MiB in pages of 4 KiB";
-    volumes.dropPages(key, 0, dims.z);
-    EXPECT_LE(cachedPages(file), before - 512);
+    // In pieces, as they are read; what was just written may be held in larger ones.
+    for (int z = 0; z < dims.z; z += 4)
+        volumes.dropPages(key, z, 4);
+    const auto after = cachedPages(file);
+    if (after == before) GTEST_SKIP() << "this file system takes no advice about its cache";
+    EXPECT_LE(after, before - 512) << "2 MiB in pages of 4 KiB";
     auto again = samples;
     volumes.readSlices(key, 0, dims.z, again);
     EXPECT_EQ(again, samples);
