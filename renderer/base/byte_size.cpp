@@ -2,7 +2,6 @@
 
 #include "base/errors.h"
 
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -62,21 +61,6 @@ std::uint64_t parseBudget(const std::string& text, const std::string& flag,
     if (largest && bytes > *largest)
         throw InvalidInput(flag, "`" + text + "` is more than this machine has", advice).withField(flag);
     return bytes;
-}
-
-std::string byteText(std::uint64_t bytes) {
-    static constexpr std::array<const char*, 5> units{"bytes", "KiB", "MiB", "GiB", "TiB"};
-    auto number = static_cast<double>(bytes);
-    std::size_t unit = 0;
-    while (number >= 1024.0 && unit + 1 < units.size()) {
-        number /= 1024.0;
-        ++unit;
-    }
-    std::array<char, 32> text{};
-    const double rounded = std::round(number * 10.0) / 10.0;
-    const bool whole = rounded == std::floor(rounded);
-    std::snprintf(text.data(), text.size(), whole ? "%.0f %s" : "%.1f %s", rounded, units[unit]);
-    return text.data();
 }
 
 } // namespace voxsheet

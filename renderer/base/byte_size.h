@@ -22,7 +22,4 @@ inline constexpr std::uint64_t kSmallestBudgetBytes = std::uint64_t{1} << 20;
 [[nodiscard]] std::uint64_t parseBudget(const std::string& text, const std::string& flag,
                                         std::optional<std::uint64_t> largest);
 
-/// "512 MiB", "1.5 GiB", "100 bytes": at most one decimal.
-[[nodiscard]] std::string byteText(std::uint64_t bytes);
-
 } // namespace voxsheet

@@ -19,8 +19,8 @@ namespace voxsheet {
 struct RenderOptions {
     int device = -1;                      ///< --device; -1 = choose
     std::uint64_t textureBudgetBytes = 0; ///< 0 = a stated share of the device's memory (llvmpipe: of RAM)
-    std::function<void()>
-        onFirstEviction; ///< called on the render thread; must not block or throw; may be empty
+    /// Called on the render thread when the budget first makes something go; must not block or throw.
+    std::function<void()> onFirstEviction = {};
 };
 
 enum class FramePriority { Interactive, Final, Export };
