@@ -56,6 +56,14 @@ std::string inWords(const SlopeRatio& ratio) {
     return "R = " + number(ratio.value) + " (" + number(ratio.low) + " to " + number(ratio.high) + ")";
 }
 
+std::string verdictInWords(const std::optional<SlopeRatio>& ratio) {
+    if (!ratio) return "the time-N curve has too few points yet to judge its slope";
+    if (!ratio->comparable)
+        return "times fell while N grew, as when a busy machine becomes idle: there is no slope to compare "
+               "with";
+    return "the time-N curve keeps the rule: " + inWords(*ratio);
+}
+
 std::string inWords(const TimePoint& point) {
     return number(point.ms.value, 1) + " ms (" + number(point.ms.low, 1) + " to " + number(point.ms.high, 1) +
            ")";
@@ -165,8 +173,7 @@ Decision DynamicResolution::decideBySlope(int n, double ratioLimit) {
     } else {
         const auto ratio = bend ? std::optional(bend->ratio)
                                 : newestSlopeRatio(segmentFrom(curve, watches_[here].segmentFirstN()));
-        decision = stay(ratio ? "the time-N curve keeps the rule: " + inWords(*ratio)
-                              : "the time-N curve has too few points yet to judge its slope");
+        decision = stay(verdictInWords(ratio));
         decision.ratio = ratio;
     }
     decision.rawRatio = rawSlopeRatio(curve);

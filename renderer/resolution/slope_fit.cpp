@@ -153,6 +153,7 @@ SlopeRatio slopeRatio(const BentLine& line) {
     // Fieller: the ratios r for which after - r before is not significantly different from 0, the roots of
     // a r^2 - 2 b r + c = 0.
     const double t = studentQuantile(0.975, line.degreesOfFreedom);
+    ratio.comparable = line.slopeBefore > -t * std::sqrt(varianceBefore);
     const double a = before * before - t * t * varianceBefore;
     const double b = after * before - t * t * shared;
     const double c = after * after - t * t * varianceAfter;

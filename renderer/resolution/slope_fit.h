@@ -48,9 +48,12 @@ struct SlopeRatio {
     double high = 0.0;
     /// slopeAfter - slopeBefore in its own standard errors: how sure it is that there is a bend at all.
     double significance = 0.0;
+    /// False when the curve surely fell before: more datasets are not drawn faster, so that other things
+    /// changed meanwhile (a busy machine became idle), and there is nothing to compare with.
+    bool comparable = true;
 };
 
-/// A falling or level curve before the bend counts as level.
+/// A curve that falls before the bend, but perhaps by chance, counts as level.
 [[nodiscard]] SlopeRatio slopeRatio(const BentLine& line);
 /// after.slope / before.slope of two lines through different points.
 [[nodiscard]] SlopeRatio slopeRatio(const StraightLine& before, const StraightLine& after);

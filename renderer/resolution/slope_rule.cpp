@@ -49,7 +49,8 @@ std::optional<SlopeBend> creptUp(std::span<const TimePoint> first, std::span<con
                                  double ratioLimit) {
     if (first.size() < 2 || last.size() < kNewestSteps) return std::nullopt;
     const auto ratio = slopeRatio(fitStraightLine(first), fitStraightLine(last));
-    if (ratio.low <= ratioLimit || ratio.significance <= kSureDifference) return std::nullopt;
+    if (!ratio.comparable || ratio.low <= ratioLimit || ratio.significance <= kSureDifference)
+        return std::nullopt;
     return SlopeBend{last.front().n, last.back().n, ratio, true};
 }
 
@@ -59,8 +60,9 @@ std::optional<SlopeBend> newestBend(std::span<const TimePoint> segment, double r
     if (segment.size() < 3) return std::nullopt;
     const auto surest = surestBend(segment);
     if (!surest) return std::nullopt;
-    const bool breaks = surest->ratio.low > ratioLimit;
-    if (!breaks && surest->ratio.high >= ratioLimit) return std::nullopt;
+    const bool breaks = surest->ratio.comparable && surest->ratio.low > ratioLimit;
+    const bool keeps = !surest->ratio.comparable || surest->ratio.high < ratioLimit;
+    if (!breaks && !keeps) return std::nullopt;
     if (!holdsWithoutAnyOne(segment, *surest, breaks ? std::optional(ratioLimit) : std::nullopt))
         return std::nullopt;
     return SlopeBend{segment[surest->bend].n, segment.back().n, surest->ratio, breaks};

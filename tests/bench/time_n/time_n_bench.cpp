@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "bench/time_n/bench_datasets.h"
+#include "bench/time_n/other_load.h"
 #include "bench/time_n/stop_signals.h"
 #include "frame/render_thread.h"
 #include "frame/timer_check.h"
@@ -49,6 +50,7 @@ public:
             const double limit = result_.options.stopMs;
             if (limit > 0.0 && result_.points.back().ms.value > limit) break;
         }
+        result_.otherLoad = load_.share();
         result_.segments = segmentsOf(result_.points);
         result_.timerGpuMs = timers_.gpuMs();
         result_.timerHostMs = timers_.hostMs();
@@ -187,6 +189,7 @@ private:
     SlopeWatch watch_;     ///< finds the bends also when the rule is another one, or off
     int watchedFromN_ = 0; ///< the last bend that broke the rule unanswered
     TimerCheck timers_;
+    OtherLoad load_;
     TimeNResult result_;
 };
 

@@ -39,6 +39,7 @@ TimeNResult measure(const TimeNOptions& options, const BenchDatasets& datasets, 
     if (!files.svg.empty()) write(files.svg, timeNFigure(result));
     for (const auto& sentence : absentRegimes(result))
         progress(sentence);
+    if (const auto busy = busyMachine(result); !busy.empty()) progress(busy);
     return result;
 }
 

@@ -134,6 +134,12 @@ std::vector<std::string> absentRegimes(const TimeNResult& result) {
     return sentences;
 }
 
+std::string busyMachine(const TimeNResult& result) {
+    if (result.otherLoad.value_or(0.0) <= 0.1) return {};
+    return "other processes took " + std::to_string(std::lround(100.0 * *result.otherLoad)) +
+           " % of the processors' time meanwhile: the times say little";
+}
+
 std::string jsonOf(const TimeNResult& result) {
     const auto& options = result.options;
     const auto& tile = options.scene.tilePixels;
@@ -157,6 +163,7 @@ std::string jsonOf(const TimeNResult& result) {
                        {"disk_reading_from", jsonOrNull(result.memorySwapN)},
                        {"absent_regimes", jsonArray(absent)},
                        {"n_max", std::to_string(result.nMax)},
+                       {"other_processes_share", jsonNumber(result.otherLoad)},
                        {"timer_check", jsonObject({{"timestamps_ms", jsonNumber(result.timerGpuMs)},
                                                    {"host_ms", jsonNumber(result.timerHostMs)},
                                                    {"agree", result.timersAgree ? "true" : "false"}})}});

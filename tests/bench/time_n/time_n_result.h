@@ -70,10 +70,14 @@ struct TimeNResult {
     double timerHostMs = 0.0;
     bool timersAgree = true;
     bool onDisk = true;
+    std::optional<double> otherLoad; ///< share of the processors' time that other processes took meanwhile
 };
 
 /// Segments of consecutive points of one level.
 [[nodiscard]] std::vector<TimeNSegment> segmentsOf(const std::vector<TimeNPoint>& points);
+
+/// A sentence for people when other processes took more than a tenth of the processors' time; else empty.
+[[nodiscard]] std::string busyMachine(const TimeNResult& result);
 
 /// Sentences for people about regimes that did not appear, and why.
 [[nodiscard]] std::vector<std::string> absentRegimes(const TimeNResult& result);

@@ -128,6 +128,22 @@ TEST(SlopeRule, GentlerSlopeKeepsIt) {
     EXPECT_EQ(firstDetected(pointsOf({500.0, {-5.0}, {}}, 60, Noise(0.01, 1))), 0);
 }
 
+TEST(SlopeRule, TimesThatFellAreNothingToCompareWith) {
+    // Something else kept the machine busy from N = 5 on, and less and less up to N = 16. The slope is the
+    // same before and after, and doubles at N = 30.
+    const InventedCurve curve{0.0, {10.0, 20.0}, {30}};
+    Noise noise(0.01, 6);
+    auto points = pointsOf(curve, 40, noise);
+    for (auto& point : points)
+        if (point.n > 4 && point.n <= 16) {
+            const double ms = noise(400.0 - 20.0 * (point.n - 4));
+            point.ms = measuredMedian({&ms, 1});
+        }
+    const auto detected = firstDetected({points.begin() + 4, points.end()});
+    EXPECT_GT(detected, 30);
+    EXPECT_LE(detected, 34);
+}
+
 TEST(SlopeRule, WidelyScatteredFramesKeepIt) {
     // A busy machine: the medians bend, but each point's own interval says that it may be anything.
     std::vector<TimePoint> points;
