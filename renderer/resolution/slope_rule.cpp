@@ -80,13 +80,24 @@ std::span<const TimePoint> segmentFrom(std::span<const TimePoint> curve, int fir
     return curve.subspan(static_cast<std::size_t>(first - curve.begin()));
 }
 
+namespace {
+
+std::span<const TimePoint> upTo(std::span<const TimePoint> curve, int lastN) {
+    return curve.first(curve.size() - segmentFrom(curve, lastN + 1).size());
+}
+
+} // namespace
+
 std::optional<SlopeBend> SlopeWatch::judge(std::span<const TimePoint> curve, double ratioLimit) {
     if (curve.empty() || curve.back().n <= segmentFirstN_) *this = {};
     const auto segment = segmentFrom(curve, segmentFirstN_);
     auto bend = newestBend(segment, ratioLimit);
-    if (!bend && firstBendN_ > 0) {
-        const auto first = curve.first(curve.size() - segmentFrom(curve, firstBendN_ + 1).size());
-        bend = creptUp(first, segment, ratioLimit);
+    if (!bend && firstBendN_ > 0) bend = creptUp(upTo(curve, firstBendN_), segment, ratioLimit);
+    if (bend && bend->breaksRule && firstBendN_ > 0) {
+        const auto overall = slopeRatio(fitStraightLine(upTo(curve, bend->lastN)),
+                                        fitStraightLine(segmentFrom(curve, bend->lastN)));
+        bend->breaksRule = overall.low > ratioLimit;
+        if (!bend->breaksRule && overall.high >= ratioLimit) return std::nullopt;
     }
     if (!bend || bend->breaksRule) return bend;
     segmentFirstN_ = bend->lastN;

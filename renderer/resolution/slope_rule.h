@@ -48,8 +48,10 @@ struct SlopeBend {
 /// Follows a curve while N grows: remembers where its segments begin. A value.
 class SlopeWatch {
 public:
-    /// Judges the curve up to its last point. After a bend that keeps the rule a new segment begins at it. A
-    /// segment without a bend of its own is compared with the curve's first one as well, so that a slope that
+    /// Judges the curve up to its last point. After a bend that keeps the rule a new segment begins at it.
+    /// From then on a bend breaks the rule only when the slope after it is, as surely, above the limit
+    /// against the whole curve before it as well: a curve that was flatter for a while may go on as it began.
+    /// A segment without a bend of its own is compared with the curve's first one, so that a slope that
     /// creeps up breaks the rule at last. When the curve ends before the last known bend (N shrank), the
     /// segments are forgotten.
     [[nodiscard]] std::optional<SlopeBend> judge(std::span<const TimePoint> curve, double ratioLimit);

@@ -16,7 +16,8 @@ const char* const kUsage =
     "  --technique vr|sr|vc|ie   --shading   --max-n N (64)   --dim N (256)   --tile WxH (256x256)\n"
     "  --texture-budget BYTES (256M)   --memory-budget BYTES (512M)\n"
     "  --dr off|slope|slope-first|time|rate|count|bytes   --dr-limit X\n"
-    "  --frames N (6)   --stop-ms MS   --device N   --csv FILE   --svg FILE   --paper FOLDER   --json\n";
+    "  --frames N (6)   --step N (1)   --stop-ms MS   --device N   --csv FILE   --svg FILE   --paper FOLDER  "
+    " --json\n";
 
 struct Arguments {
     TimeNOptions options;
@@ -60,6 +61,7 @@ Arguments parse(int count, char** words) {
         {"--max-n", whole(a.options.maxN)},
         {"--dim", whole(a.options.dim)},
         {"--frames", whole(a.options.frames)},
+        {"--step", whole(a.options.step)},
         {"--device", whole(a.options.device)},
         {"--dr-limit", [&](const std::string& word) { a.texts.drLimit = numberOf(name, word); }},
         {"--stop-ms", [&](const std::string& word) { a.options.stopMs = numberOf(name, word); }}};

@@ -38,6 +38,9 @@ std::string escaped(const std::string& text) {
         else
             result += c;
     }
+    // The one symbol with an index that plots here have.
+    for (auto at = result.find("T_N"); at != std::string::npos; at = result.find("T_N", at))
+        result.replace(at, 3, "T<tspan dy=\"3\" style=\"font-size:75%\">N</tspan><tspan dy=\"-3\"> </tspan>");
     return result;
 }
 

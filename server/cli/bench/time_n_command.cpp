@@ -105,6 +105,8 @@ Action addTimeN(CLI::App& app) {
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
     app.add_option("--frames", a->options.frames, "Frames per N, of which the median counts (6)")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--step", a->options.step, "Measure N = 1 to STEP, then every STEP-th (1)")
+        ->check(CLI::Range(1, 1024));
     app.add_option("--stop-ms", a->options.stopMs, "End the series at the first frame that takes longer");
     app.add_option("--device", a->options.device, "EGL device to draw on");
     app.add_option("--csv", a->files.csv, "Write the points here");

@@ -43,7 +43,7 @@ public:
     [[nodiscard]] TimeNResult run() {
         for (int frame = 0; frame < kFirstFrames; ++frame)
             (void)draw(frameSpec(1, frame));
-        for (int n = 1; n <= result_.options.maxN; ++n) {
+        for (int n = 1; n <= result_.options.maxN; n = next(n)) {
             measureAndKeep(n);
             while (answer(n)) {
             }
@@ -60,6 +60,14 @@ public:
     }
 
 private:
+    /// The N that is measured after n.
+    [[nodiscard]] int next(int n) const {
+        const int step = result_.options.step;
+        const int last = result_.options.maxN;
+        if (n >= last || n < step) return n + 1;
+        return std::min(last, (n / step + 1) * step);
+    }
+
     [[nodiscard]] FrameSpec frameSpec(int n, int frame) const {
         FrameSpec spec;
         for (int index = 0; index < n; ++index)
@@ -140,18 +148,19 @@ private:
         watchedFromN_ = 0;
         const auto lastN = resolution_.lastNOfLevel()[static_cast<std::size_t>(level)];
         const int firstN = decision.level > level && lastN ? *lastN + 1 : n;
-        measureAgain(firstN, n);
+        measureAgainFrom(firstN);
         return true;
     }
 
-    /// The sheets of firstN to lastN datasets are drawn at another level from now on.
-    void measureAgain(int firstN, int lastN) {
+    /// The sheets of firstN datasets and more are drawn at another level from now on.
+    void measureAgainFrom(int firstN) {
         const auto first = std::find_if(result_.points.begin(), result_.points.end(),
                                         [&](const TimeNPoint& point) { return point.n >= firstN; });
-        result_.trials.insert(result_.trials.end(), first, result_.points.end());
+        const std::vector<TimeNPoint> again(first, result_.points.end());
         result_.points.erase(first, result_.points.end());
-        for (int n = firstN; n <= lastN; ++n)
-            measureAndKeep(n);
+        result_.trials.insert(result_.trials.end(), again.begin(), again.end());
+        for (const auto& point : again)
+            measureAndKeep(point.n);
     }
 
     void keepTransition(const SlopeBend& bend, int level, const Decision& decision) {
@@ -203,6 +212,7 @@ void validate(const TimeNOptions& options) {
     inRange(options.maxN, 1, 1024, "--max-n");
     inRange(options.dim, 16, 1024, "--dim");
     inRange(options.frames, 1, 1000, "--frames");
+    inRange(options.step, 1, 1024, "--step");
     if (options.textureBudgetBytes == 0 || options.memoryBudgetBytes == 0)
         throw InvalidInput("budget", "it must be above 0 bytes");
 }

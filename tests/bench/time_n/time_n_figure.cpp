@@ -154,7 +154,7 @@ std::string timeNFigure(const TimeNResult& result) {
     const TimeUnit unit(std::max(largestMs(result.points), largestMs(result.trials)));
     PlotFigure figure;
     const auto& scene = result.options.scene;
-    figure.title = "T_N: " + longName(scene.technique) +
+    figure.title = "Time over N: " + longName(scene.technique) +
                    (scene.shading ? ", with shading; " : ", without shading; ") + ruleText(result.options);
     figure.subtitle = settings(result);
     figure.xLabel = "number of datasets N";

@@ -144,6 +144,19 @@ TEST(SlopeRule, TimesThatFellAreNothingToCompareWith) {
     EXPECT_LE(detected, 34);
 }
 
+TEST(SlopeRule, CurveThatWasFlatterForAWhileMayGoOnAsItBegan) {
+    int wrong = 0;
+    int caught = 0;
+    for (unsigned run = 0; run < 100; ++run) {
+        const Noise noise(0.01, run);
+        wrong += firstDetected(pointsOf({0.0, {10.0, 2.0, 10.0}, {20, 30}}, 50, noise)) != 0;
+        const int detected = firstDetected(pointsOf({0.0, {10.0, 2.0, 30.0}, {20, 30}}, 50, noise));
+        caught += detected > 30 && detected <= 36;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GE(caught, 95);
+}
+
 TEST(SlopeRule, WidelyScatteredFramesKeepIt) {
     // A busy machine: the medians bend, but each point's own interval says that it may be anything.
     std::vector<TimePoint> points;
