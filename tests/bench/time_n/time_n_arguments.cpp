@@ -2,7 +2,6 @@
 
 #include "base/byte_size.h"
 #include "base/errors.h"
-#include "base/host_memory.h"
 
 #include <cmath>
 #include <cstdio>
@@ -57,8 +56,8 @@ glm::ivec2 parseTileSize(const std::string& text) {
 
 TimeNOptions withTexts(TimeNOptions options, const TimeNTexts& texts) {
     options.scene.tilePixels = parseTileSize(texts.tile);
-    options.textureBudgetBytes = parseBudget(texts.textureBudget, "--texture-budget", std::nullopt);
-    options.memoryBudgetBytes = parseBudget(texts.memoryBudget, "--memory-budget", hostMemoryBytes());
+    options.textureBudgetBytes = parseBytes(texts.textureBudget, "--texture-budget");
+    options.memoryBudgetBytes = parseBytes(texts.memoryBudget, "--memory-budget");
     const auto criterion = resolutionCriterionFromName(texts.dr);
     if (!criterion)
         throw InvalidInput("--dr",
