@@ -115,6 +115,12 @@ test("help opens on ? and nothing went wrong on the way", async () => {
     assert.deepEqual(page.problems, []);
 });
 
+test("every choice of the inspector shows what it is", async () => {
+    const blank = await page.evaluate(() => [...document.querySelectorAll(".inspector select")].filter((select) => select.value === "").map(({ id }) => id));
+    assert.deepEqual(blank, []);
+    assert.equal(await page.locator("#key-shading-model").inputValue(), "auto");
+});
+
 test("every control has a name and is at least 24 pixels high and wide", async () => {
     const wrong = await page.evaluate(() =>
         [...document.querySelectorAll("button, select, a[href], [role=slider]")]

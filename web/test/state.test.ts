@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Refresher } from "../src/app/refresher";
-import { groupKeys, keyLabel, readValue, sliderSpan, valueText } from "../src/model/keys";
+import { groupKeys, keyLabel, optionsOf, readValue, sliderSpan, valueText } from "../src/model/keys";
 import { formatBytes, formatNumber, formatUnit } from "../src/model/format";
 import { newAppStore } from "../src/state/app_state";
 import { selectColumn } from "../src/model/selection";
@@ -46,6 +46,11 @@ test("many requests to refresh are one under way and one after it", async () => 
     assert.equal(runs, 2);
     await refresher.request();
     assert.equal(runs, 3);
+});
+
+test("a choice that may be left to the program offers the word for it", () => {
+    assert.deepEqual(optionsOf({ name: "shading.model", type: "choice", takesAuto: true, choices: ["none", "phong"] }), ["auto", "none", "phong"]);
+    assert.deepEqual(optionsOf({ name: "clip.mode", type: "choice", choices: ["probe", "clip"] }), ["probe", "clip"]);
 });
 
 test("keys that depend on another appear only when they matter", () => {

@@ -33,6 +33,12 @@ export function choicesOf(key: StyleKey): string[] {
     return key.choices ?? key.values ?? [];
 }
 
+/** The choices with the words that stand for no choice: "auto", "none". */
+export function optionsOf(key: StyleKey): string[] {
+    const words = [...(key.takesAuto ? ["auto"] : []), ...(key.takesNone ? ["none"] : [])];
+    return [...new Set([...words, ...choicesOf(key)])];
+}
+
 /** "transfer.unitLength" in group "Transfer function" -> "Unit length"; in another group "Transfer unit length". */
 export function keyLabel(key: string, group = ""): string {
     const parts = key.split(".");

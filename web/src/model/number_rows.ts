@@ -49,6 +49,6 @@ export function withNumber(rows: readonly (readonly number[])[], row: number, co
 
 /** How many numbers stand side by side: as many as fit and divide the row evenly. */
 export function numbersPerLine(columns: number): number {
-    if (columns <= 4) return columns;
+    if (columns <= 3) return columns;
     return columns % 3 === 0 && columns % 2 !== 0 ? 3 : 2;
 }

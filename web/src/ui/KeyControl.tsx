@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { StyleKey, StyleValue } from "../api/types";
 import { plainNumber } from "../model/format";
-import { choicesOf, readValue, sliderSpan, valueText } from "../model/keys";
+import { choicesOf, optionsOf, readValue, sliderSpan, valueText } from "../model/keys";
 import { useApp } from "./app_context";
 import { ColourList } from "./ColourList";
 import { ColourMapPicker } from "./ColourMapPicker";
@@ -63,7 +63,7 @@ function NumberControl({ spec, value, id, set, preview }: ControlProps) {
 function SelectControl({ spec, value, id, set }: ControlProps) {
     return (
         <select id={id} value={String(value ?? "")} onChange={(event) => set(event.currentTarget.value)}>
-            {choicesOf(spec).map((choice) => (
+            {optionsOf(spec).map((choice) => (
                 <option key={choice} value={choice}>
                     {choice}
                 </option>

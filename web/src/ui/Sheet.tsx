@@ -86,7 +86,7 @@ function RowHeader({ row, title }: { row: number; title: string | undefined }) {
             <button
                 type="button"
                 data-header={String(row + 1)}
-                title={`Select row ${row + 1}`}
+                title={`Select row ${row + 1}${title ? `: ${title}` : ""}`}
                 onClick={(event) =>
                     store.dispatch({
                         type: "page/select",
