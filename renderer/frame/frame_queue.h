@@ -28,6 +28,7 @@ struct FrameJob {
     std::size_t finishedCount = 0; ///< tiles with pixels or an error
     bool settled = false;          ///< the promise has its value or exception
     std::optional<std::chrono::steady_clock::time_point> begun;
+    std::chrono::steady_clock::duration broughtIn{}; ///< spent between its tiles on what it does not wait for
 
     void fail(std::exception_ptr error); ///< does nothing when settled
     void succeedIfFinished();            ///< sets the value once every tile has finished

@@ -5,6 +5,8 @@
 #include "frame/frame_queue.h"
 #include "frame/tile_renderer.h"
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 #include <thread>
 #include <utility>
@@ -18,6 +20,10 @@ constexpr std::size_t kTilesInFlight = 1;
 
 /// Bringing textures in stops after about this time to see what else is to be done.
 constexpr auto kSlice = std::chrono::milliseconds(4);
+
+/// A frame that waits for nothing gives so much of its time, or kSlice if that is more, to bringing things
+/// in.
+constexpr double kShareForBringingIn = 0.25;
 
 Deadline sliceEnd() { return std::chrono::steady_clock::now() + kSlice; }
 
@@ -224,7 +230,7 @@ private:
             markIssued(*job, tile);
             failTile(job, tile);
         }
-        if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween();
+        if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween(*job);
         publishState();
     }
 
@@ -234,7 +240,16 @@ private:
     }
 
     /// Between two tiles that wait for nothing: what another frame waits for, else the background's queue.
-    void bringInBetween() {
+    void bringInBetween(FrameJob& drawn) {
+        const auto begun = std::chrono::steady_clock::now();
+        if (drawn.broughtIn >=
+            std::max<std::chrono::duration<double>>(kSlice, kShareForBringingIn * (begun - *drawn.begun)))
+            return;
+        bringInSomething();
+        drawn.broughtIn += std::chrono::steady_clock::now() - begun;
+    }
+
+    void bringInSomething() {
         const auto job = waiting_.job.lock();
         if (!job || job->settled || job->issued[waiting_.tile]) {
             renderer_->residency().advance(sliceEnd());

@@ -30,6 +30,11 @@ if(TARGET bench_time_n)
     set_tests_properties(bench.time_n_small_budget PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "error: .*texture budget")
 endif()
+if(TARGET bench_arrival)
+    add_test(NAME bench.arrival COMMAND bench_arrival --samples 96 --pixels 64 --frames 2 --json)
+    set_tests_properties(bench.arrival PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"first_picture_ms\":.*\"arriving\":{\"frames\":.*\"arrived\":{\"frames\":2,")
+endif()
 if(TARGET voxsheet AND TARGET bench_time_n)
     # The texture of the clip object takes 2.1 MB.
     add_test(NAME bench.time_n_figures COMMAND voxsheet bench time-n ${small_time_n} --texture-budget 3M
