@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace voxsheet {
 namespace {
@@ -20,9 +21,9 @@ gpu::Texture cellTexture(gpu::Context& context, const glm::ivec3& dims, const st
 
 } // namespace
 
-int chunkSamples(double sampleDistanceVoxels) {
+int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
     int samples = 1;
-    while (samples < kLongestChunk && 2.0 * samples * sampleDistanceVoxels <= 2.0 * CellLayout::reachSamples)
+    while (samples < kLongestChunk && 2.0 * samples * sampleDistanceVoxels <= 2.0 * reachSamples)
         samples *= 2;
     return samples;
 }
@@ -31,15 +32,15 @@ EmptySpaceStage::EmptySpaceStage(gpu::Context& context) : context_(context), tex
 
 void EmptySpaceStage::bindOccupied(const gpu::Program& program,
                                    const std::shared_ptr<const TransferTable>& table,
-                                   const ResidentVolume& volume) {
+                                   const ResidentVolume& volume, int reachSamples) {
     const auto* cells = textures_.find([&](const Key& key) {
-        return key.minMax == volume.minMax && key.table && (key.table == table || *key.table == *table);
+        return key.minMax == volume.minMax && key.table && (key.table == table || *key.table == *table) &&
+               key.reachSamples == reachSamples;
     });
     if (cells == nullptr) {
-        const auto marks = occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table);
-        cells =
-            &textures_.insert({volume.minMax, table, {}}, cellTexture(context_, volume.dims, marks, GL_R8UI,
-                                                                      GL_RED_INTEGER, GL_UNSIGNED_BYTE));
+        const auto marks =
+            occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table, reachSamples);
+        cells = &insertDistances({volume.minMax, table, {}, reachSamples}, volume, marks);
     }
     bind(program, volume, *cells);
 }
@@ -49,12 +50,19 @@ void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector
     const auto* cells = textures_.find(
         [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values == values; });
     if (cells == nullptr) {
-        const auto marks = crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values);
-        cells = &textures_.insert(
-            {volume.minMax, nullptr, values},
-            cellTexture(context_, volume.dims, marks, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE));
+        const auto marks =
+            crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values, kShortReach);
+        cells = &insertDistances({volume.minMax, nullptr, values, kShortReach}, volume, marks);
     }
     bind(program, volume, *cells);
+}
+
+const gpu::Texture& EmptySpaceStage::insertDistances(Key key, const ResidentVolume& volume,
+                                                     const std::vector<std::uint8_t>& marks) {
+    const auto distances =
+        emptyDistances(marks, CellLayout::of(volume.dims).cells, volume.meta->grid.periodic);
+    return textures_.insert(std::move(key), cellTexture(context_, volume.dims, distances, GL_R8UI,
+                                                        GL_RED_INTEGER, GL_UNSIGNED_BYTE));
 }
 
 void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
@@ -62,14 +70,15 @@ void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVol
         [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values.empty(); });
     if (cells == nullptr) {
         const float sign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
-        auto largest = largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign);
+        auto largest =
+            largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign, kLongReach);
         // In signed texels, as the shader compares them; rounded up, so that the bound stays one.
         const double scale = std::abs(volume.valueScale);
         for (auto& value : largest) {
             const double texel = (double(value) - double(sign) * volume.valueOffset) / scale;
             value = std::nextafter(static_cast<float>(texel + 1e-6 * std::abs(texel)), HUGE_VALF);
         }
-        cells = &textures_.insert({volume.minMax, nullptr, {}},
+        cells = &textures_.insert({volume.minMax, nullptr, {}, kLongReach},
                                   cellTexture(context_, volume.dims, largest, GL_R32F, GL_RED, GL_FLOAT));
     }
     bind(program, volume, *cells);
@@ -80,6 +89,7 @@ void EmptySpaceStage::bind(const gpu::Program& program, const ResidentVolume& vo
     cells.bind(cellsUnit);
     const auto layout = CellLayout::of(volume.dims);
     program.set("cellsPerTexture", glm::vec3(volume.dims) / static_cast<float>(layout.cellSamples));
+    program.set("cellSamples", layout.cellSamples);
     program.set("lastCell", layout.cells - 1);
     program.set("periodicAxes", glm::vec3(volume.meta->grid.periodic));
 }

@@ -7,3 +7,11 @@ ivec3 cellAt(vec3 position) {
     vec3 wrapped = position - periodicAxes * floor(position);
     return clamp(ivec3(wrapped * cellsPerTexture), ivec3(0), lastCell);
 }
+
+uniform int cellSamples; // per axis of a cell
+
+// From a stretch of a ray whose middle lies in a cell with this mark to the next that may show something, in stretches;
+// 0: this one may. Marks are distances to the nearest cell that shows something (emptyDistances in stages/occupancy.h).
+int stretchesAhead(uint mark, float stretchVoxels) {
+    return mark == 0u ? 0 : 1 + int(float((int(mark) - 1) * cellSamples) / stretchVoxels);
+}

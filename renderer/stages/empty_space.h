@@ -8,14 +8,15 @@
 #include "stages/recent_cache.h"
 #include "volume/transfer_function.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace voxsheet {
 
 /// Samples in a stretch of a ray that one look-up answers for: a power of two in [1, 16], as many as fit into
-/// twice the reach of a cell at this distance of samples.
-[[nodiscard]] int chunkSamples(double sampleDistanceVoxels);
+/// twice the reach of a cell's mark at this distance of samples.
+[[nodiscard]] int chunkSamples(double sampleDistanceVoxels, int reachSamples);
 
 class EmptySpaceStage {
 public:
@@ -23,14 +24,15 @@ public:
 
     explicit EmptySpaceStage(gpu::Context& context);
 
-    /// For compositing: cells are > 0 where the table can show something.
+    /// For compositing: cells are 0 where the table can show something, else emptyDistances().
     void bindOccupied(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
-                      const ResidentVolume& volume);
-    /// For isosurfaces: cells are > 0 where one of the values may be crossed.
+                      const ResidentVolume& volume, int reachSamples);
+    /// For isosurfaces: cells are 0 where one of the values may be crossed, else emptyDistances(). Of
+    /// kShortReach.
     void bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                      const ResidentVolume& volume);
     /// For maximum projection: cells hold the largest texel (or the largest negated one, where values fall
-    /// with texels).
+    /// with texels). Of kLongReach.
     void bindLargest(const gpu::Program& program, const ResidentVolume& volume);
 
 private:
@@ -39,7 +41,10 @@ private:
         std::shared_ptr<const TransferTable>
             table; ///< null: largest texels, or cells where `values` are crossed
         std::vector<double> values;
+        int reachSamples = 0;
     };
+    const gpu::Texture& insertDistances(Key key, const ResidentVolume& volume,
+                                        const std::vector<std::uint8_t>& marks);
     void bind(const gpu::Program& program, const ResidentVolume& volume, const gpu::Texture& cells) const;
 
     gpu::Context& context_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace voxsheet {
@@ -11,13 +12,13 @@ constexpr long kMaxSmallCells = 1L << 24;
 
 /// The bricks that a cell and its surroundings touch on one axis, without repeats.
 std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samples, int bricks,
-                                            bool periodic) {
+                                            bool periodic, int reachSamples) {
     std::vector<std::vector<int>> result(static_cast<std::size_t>(cells));
     for (int cell = 0; cell < cells; ++cell) {
         auto& touched = result[static_cast<std::size_t>(cell)];
-        const int begin = cell * cellSamples - CellLayout::reachSamples;
+        const int begin = cell * cellSamples - reachSamples;
         // One sample beyond the reach, because the look-up point is rounded to a cell in 32-bit floats.
-        const int end = (cell + 1) * cellSamples + CellLayout::reachSamples + 1;
+        const int end = (cell + 1) * cellSamples + reachSamples + 1;
         for (int sample = begin - 1; sample < end; ++sample) {
             const int inside =
                 periodic ? ((sample % samples) + samples) % samples : std::clamp(sample, 0, samples - 1);
@@ -35,11 +36,11 @@ std::size_t offset(const glm::ivec3& size, int x, int y, int z) {
 /// Spreads one number per brick to cells: the largest over the bricks that the cell touches, axis by axis.
 template <typename T>
 std::vector<T> largestOverBricks(std::vector<T> values, glm::ivec3 size, const glm::ivec3& dims,
-                                 const glm::bvec3& periodic) {
+                                 const glm::bvec3& periodic, int reachSamples) {
     const auto layout = CellLayout::of(dims);
     for (int axis = 0; axis < 3; ++axis) {
-        const auto touched =
-            bricksOfCells(layout.cells[axis], layout.cellSamples, dims[axis], size[axis], periodic[axis]);
+        const auto touched = bricksOfCells(layout.cells[axis], layout.cellSamples, dims[axis], size[axis],
+                                           periodic[axis], reachSamples);
         glm::ivec3 wider = size;
         wider[axis] = layout.cells[axis];
         std::vector<T> spread(static_cast<std::size_t>(wider.x) * static_cast<std::size_t>(wider.y) *
@@ -91,6 +92,42 @@ private:
     std::vector<unsigned> before_;
 };
 
+/// For each cell the smallest over its row of max(steps to it, its distance): axis after axis this gives the
+/// Chebyshev distance.
+std::vector<std::uint8_t> nearestAlongAxis(const std::vector<std::uint8_t>& distances,
+                                           const glm::ivec3& cells, int axis, bool periodic) {
+    auto nearest = distances;
+    const int count = cells[axis];
+    for (int step = -kFarthestCells + 1; step < kFarthestCells; ++step) {
+        if (step == 0) continue;
+        const auto far = static_cast<std::uint8_t>(std::abs(step));
+        for (int z = 0; z < cells.z; ++z)
+            for (int y = 0; y < cells.y; ++y) {
+                glm::ivec3 from(0, y, z);
+                int begin = 0;
+                int end = cells.x;
+                if (axis == 0) {
+                    begin = std::max(0, -step);
+                    end = std::min(cells.x, cells.x - step);
+                } else {
+                    from[axis] += step;
+                    if (periodic) from[axis] = ((from[axis] % count) + count) % count;
+                    if (from[axis] < 0 || from[axis] >= count) continue;
+                }
+                const auto* in = distances.data() + offset(cells, 0, from.y, from.z);
+                auto* out = nearest.data() + offset(cells, 0, y, z);
+                const int shift = axis == 0 ? step : 0;
+                for (int x = begin; x < end; ++x)
+                    out[x] = std::min(out[x], std::max(in[x + shift], far));
+                if (axis != 0 || !periodic) continue;
+                for (int x = 0; x < count; ++x)
+                    if (x < begin || x >= end)
+                        out[x] = std::min(out[x], std::max(in[(((x + step) % count) + count) % count], far));
+            }
+    }
+    return nearest;
+}
+
 } // namespace
 
 CellLayout CellLayout::of(const glm::ivec3& dims) {
@@ -102,18 +139,20 @@ CellLayout CellLayout::of(const glm::ivec3& dims) {
 }
 
 std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
-                                        const glm::bvec3& periodic, const TransferTable& table) {
+                                        const glm::bvec3& periodic, const TransferTable& table,
+                                        int reachSamples) {
     const OpacityCounts counts(table);
     std::vector<std::uint8_t> bricks(grid.ranges.size());
     std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
                    [&](const MinMaxGrid::Range& range) {
                        return counts.any(range) ? std::uint8_t{1} : std::uint8_t{0};
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
 }
 
 std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
-                                       const glm::bvec3& periodic, const std::vector<double>& values) {
+                                       const glm::bvec3& periodic, const std::vector<double>& values,
+                                       int reachSamples) {
     // A brick's range bounds every interpolant inside: what is crossed in it lies between its own low and
     // high.
     std::vector<std::uint8_t> bricks(grid.ranges.size());
@@ -124,18 +163,29 @@ std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3&
                        });
                        return crossed ? std::uint8_t{1} : std::uint8_t{0};
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
+}
+
+std::vector<std::uint8_t> emptyDistances(const std::vector<std::uint8_t>& marks, const glm::ivec3& cells,
+                                         const glm::bvec3& periodic) {
+    std::vector<std::uint8_t> distances(marks.size());
+    std::transform(marks.begin(), marks.end(), distances.begin(), [](std::uint8_t mark) {
+        return mark != 0 ? std::uint8_t{0} : std::uint8_t{kFarthestCells};
+    });
+    for (int axis = 0; axis < 3; ++axis)
+        distances = nearestAlongAxis(distances, cells, axis, periodic[axis]);
+    return distances;
 }
 
 std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims, const glm::bvec3& periodic,
-                                  float sign) {
+                                  float sign, int reachSamples) {
     std::vector<float> bricks(grid.ranges.size());
     std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
                    [&](const MinMaxGrid::Range& range) {
                        if (range.low > range.high) return -std::numeric_limits<float>::infinity();
                        return sign > 0.0F ? range.high : -range.low;
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic);
+    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
 }
 
 } // namespace voxsheet

@@ -12,29 +12,37 @@
 namespace voxsheet {
 
 /// The level is divided into cells of `cellSamples` samples per axis: cell c covers texture coordinates
-/// [c, c + 1) * cellSamples / dims. A mark of a cell speaks for the cell and `reachSamples` around it
+/// [c, c + 1) * cellSamples / dims. A mark of a cell speaks for the cell and a reach, in samples, around it
 /// (clamped at the ends, or wrapped on periodic axes), so that one look-up in the middle of a stretch of a
-/// ray of length <= 2 * reachSamples answers for all of the stretch.
+/// ray of length <= 2 * reach answers for all of the stretch.
 struct CellLayout {
-    static constexpr int reachSamples = 4;
-
     int cellSamples = 4; ///< 4, or 8 where cells of 4 would be more than 2^24
     glm::ivec3 cells{0}; ///< ceil(dims / cellSamples)
 
     [[nodiscard]] static CellLayout of(const glm::ivec3& dims);
 };
 
+inline constexpr int kShortReach = 2; ///< where one look-up leads far ahead (emptyDistances)
+inline constexpr int kLongReach = 4;  ///< where each stretch is looked up
+
 /// 1 where something within reach can have opacity > 0, else 0; x fastest. Conservative.
 [[nodiscard]] std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
-                                                      const glm::bvec3& periodic, const TransferTable& table);
+                                                      const glm::bvec3& periodic, const TransferTable& table,
+                                                      int reachSamples);
 
 /// 1 where one of `values` may be crossed within reach, else 0; x fastest. Conservative.
 [[nodiscard]] std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                                      const glm::bvec3& periodic,
-                                                     const std::vector<double>& values);
+                                                     const std::vector<double>& values, int reachSamples);
+
+/// Of each cell to the nearest one with a mark, in cells along the axis on which they lie farthest apart
+/// (Chebyshev), wrapped on periodic axes; 0: it has one itself; at most kFarthestCells.
+inline constexpr int kFarthestCells = 6;
+[[nodiscard]] std::vector<std::uint8_t> emptyDistances(const std::vector<std::uint8_t>& marks,
+                                                       const glm::ivec3& cells, const glm::bvec3& periodic);
 
 /// Largest value within reach (sign = 1), or largest negated value (sign = -1); -infinity where all is NaN.
 [[nodiscard]] std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims,
-                                                const glm::bvec3& periodic, float sign);
+                                                const glm::bvec3& periodic, float sign, int reachSamples);
 
 } // namespace voxsheet

@@ -4,11 +4,12 @@
 // sample distance and view, no shading, 8-bit pictures on the host; frames alternate, so that what else the
 // machine does hits all alike.
 #include "bench/bench_options.h"
+#include "bench/inside_vs_vtk.h"
 #include "bench/json_text.h"
 #include "image/vtk_peer.h"
 #include "volume/memory_volume_provider.h"
 
-#include <optional>
+#include <utility>
 
 namespace voxsheet::bench {
 namespace {
@@ -59,8 +60,7 @@ std::string runCase(RenderThread& thread, VolumeScene& scene, Technique techniqu
                        {"vtk_gpu_p999", jsonNumber(theirs.p999)}});
 }
 
-std::string compareWithVtk(const VolumeBenchOptions& options) {
-    std::optional<RenderDevice> device;
+std::vector<std::string> volumesAgainstVtk(const VolumeBenchOptions& options) {
     std::vector<std::string> cases;
     for (const bool filled : {false, true}) {
         VolumeScene scene(options, filled);
@@ -69,14 +69,32 @@ std::string compareWithVtk(const VolumeBenchOptions& options) {
         RenderOptions renderOptions;
         renderOptions.device = options.device;
         RenderThread thread(provider, renderOptions);
-        device = thread.device();
         image::VtkPeer gpu(scene.sampled(), image::VtkMapper::Gpu);
         image::VtkPeer cpu(scene.sampled(), image::VtkMapper::Cpu);
         for (const auto technique : {Technique::Raycast, Technique::Slices})
             cases.push_back(runCase(thread, scene, technique, gpu, cpu, options.frames));
     }
-    return jsonObject({{"device", jsonString(device->eglPlatform)},
-                       {"renderer", jsonString(device->renderer)},
+    return cases;
+}
+
+RenderDevice deviceOf(const VolumeBenchOptions& options) {
+    RenderOptions renderOptions;
+    renderOptions.device = options.device;
+    return RenderThread(std::make_shared<MemoryVolumeProvider>(), renderOptions).device();
+}
+
+/// With --technique only what looks inside; else that after the volumes.
+std::string compareWithVtk(VolumeBenchOptions options) {
+    const auto device = deviceOf(options);
+    std::vector<std::string> cases;
+    if (options.techniques.empty()) {
+        cases = volumesAgainstVtk(options);
+        options.techniques = {"all"};
+    }
+    for (auto& one : insideAgainstVtk(options))
+        cases.push_back(std::move(one));
+    return jsonObject({{"device", jsonString(device.eglPlatform)},
+                       {"renderer", jsonString(device.renderer)},
                        {"frames", jsonNumber(options.frames)},
                        {"cases", jsonArray(cases)}});
 }

@@ -1,49 +1,26 @@
 #include "image/vtk_peer.h"
 
 #include "base/errors.h"
-#include "gpu/context.h"
 #include "image/vtk_image.h"
+#include "image/vtk_window.h"
 
-#include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
-#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 
 namespace voxsheet::image {
 namespace {
-
-/// GLEW looks for a GLX display, finds none and reports a failure, but has loaded the functions by then. VTK
-/// would therefore initialise again for every frame, which would be unfair to it.
-class PeerWindow : public vtkGenericOpenGLRenderWindow {
-public:
-    static PeerWindow* New();
-    vtkTypeMacro(PeerWindow, vtkGenericOpenGLRenderWindow);
-
-    void OpenGLInitContext() override {
-        if (this->Initialized) return;
-        const int warnings = vtkObject::GetGlobalWarningDisplay();
-        vtkObject::SetGlobalWarningDisplay(0);
-        this->Superclass::OpenGLInitContext();
-        vtkObject::SetGlobalWarningDisplay(warnings);
-        this->Initialized = true;
-        this->GlewInitValid = true;
-    }
-};
-vtkStandardNewMacro(PeerWindow);
 
 /// Control points at every entry, in stored numbers: VTK knows no slope and intercept.
 void setTransfer(vtkVolumeProperty* property, const TransferTable& table, const FieldMeta& field) {
@@ -111,38 +88,13 @@ public:
             volume_->SetMapper(cpu_);
         }
         volume_->GetProperty()->SetInterpolationTypeToLinear();
-        renderer_->SetBackground(0.0, 0.0, 0.0);
-        renderer_->AddVolume(volume_);
-        window_->SetOwnContext(0);
-        window_->SetMultiSamples(0);
-        window_->SetFrameBlitModeToNoBlit(); // there is no window to show the frame in
-        window_->SetIsCurrent(true);
-        window_->SetReadyForRendering(true);
-        window_->OpenGLInit();
-        window_->AddRenderer(renderer_);
-    }
-
-    ~Implementation() {
-        context_.makeCurrent();
-        window_->Finalize();
+        window_.renderer().AddVolume(volume_);
     }
 
     fields::Picture draw(const TileSpec& tile) {
-        context_.makeCurrent();
+        window_.makeCurrent();
         prepare(tile);
-        const auto start = std::chrono::steady_clock::now();
-        setCamera(tile.camera);
-        window_->Render();
-        window_->GetPixelData(0, 0, tile.sizePixels.x - 1, tile.sizePixels.y - 1, 0, pixels_, 0);
-        lastMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        fields::Picture picture(tile.sizePixels);
-        for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-            const auto channel = [&](std::size_t c) {
-                return double(pixels_->GetValue(static_cast<vtkIdType>(3 * i + c))) / 255.0;
-            };
-            picture.pixels[i] = {channel(0), channel(1), channel(2), 1.0};
-        }
-        return picture;
+        return window_.draw(tile, grid_);
     }
 
     void crop(const glm::dvec3& low, const glm::dvec3& high) {
@@ -151,7 +103,18 @@ public:
         mapper()->SetCroppingRegionPlanes(low.x, high.x, low.y, high.y, low.z, high.z);
     }
 
-    double lastMs_ = 0.0;
+    /// Samples that are 0 in the mask are not drawn.
+    void mask(const std::vector<unsigned char>& kept) {
+        if (gpu_ == nullptr) throw Unsupported("comparison with VTK", "its CPU mapper has no masks");
+        auto image = vtkSmartPointer<vtkImageData>::New();
+        image->CopyStructure(vtkImageData::SafeDownCast(gpu_->GetInput()));
+        image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+        std::copy(kept.begin(), kept.end(), static_cast<unsigned char*>(image->GetScalarPointer()));
+        gpu_->SetMaskInput(image);
+        gpu_->SetMaskTypeToBinary();
+    }
+
+    [[nodiscard]] double lastMs() const { return window_.lastMs(); }
 
 private:
     [[nodiscard]] vtkVolumeMapper* mapper() const {
@@ -167,7 +130,7 @@ private:
         volume_->GetProperty()->SetScalarOpacityUnitDistance(tile.unitLengthWorld);
         setShading(volume_->GetProperty(), tile.shading);
         setPlanes(mapper(), tile.clip.planes);
-        window_->SetSize(tile.sizePixels.x, tile.sizePixels.y);
+        setBlend(tile);
         // VTK's distance is in the world and the same in all directions: along the central ray it is ours.
         const auto view = glm::inverse(tile.camera.viewFromWorld);
         const auto ahead = glm::dmat3(glm::inverse(grid_.worldFromIndex)) * -glm::dvec3(view[2]);
@@ -176,30 +139,28 @@ private:
         if (cpu_ != nullptr) fixDistances(cpu_.Get(), distance);
     }
 
-    void setCamera(const CameraSpec& spec) {
-        const auto worldFromView = glm::inverse(spec.viewFromWorld);
-        const glm::dvec3 eye(worldFromView[3]);
-        const auto focus = eye - glm::dvec3(worldFromView[2]) * glm::distance(eye, centreWorld(grid_));
-        auto* camera = renderer_->GetActiveCamera();
-        camera->SetPosition(eye.x, eye.y, eye.z);
-        camera->SetFocalPoint(focus.x, focus.y, focus.z);
-        camera->SetViewUp(worldFromView[1].x, worldFromView[1].y, worldFromView[1].z);
-        camera->SetViewAngle(spec.fovYDegrees);
-        camera->SetParallelProjection(spec.projection == Projection::Orthographic ? 1 : 0);
-        camera->SetParallelScale(0.5 * spec.heightWorld);
-        renderer_->ResetCameraClippingRange();
+    /// Isosurfaces take their colour and opacity from the table.
+    void setBlend(const TileSpec& tile) {
+        if (tile.technique != Technique::Isosurface) {
+            mapper()->SetBlendModeToComposite();
+            return;
+        }
+        mapper()->SetBlendModeToIsoSurface();
+        auto* values = volume_->GetProperty()->GetIsoSurfaceValues();
+        const auto& surfaces = tile.isosurface.surfaces;
+        values->SetNumberOfContours(static_cast<int>(surfaces.size()));
+        for (std::size_t i = 0; i < surfaces.size(); ++i)
+            values->SetValue(static_cast<int>(i),
+                             (surfaces[i].value - field_.valueOffset) / field_.valueScale);
     }
 
-    gpu::Context context_;
+    VtkWindow window_;
     Grid grid_;
     FieldMeta field_;
     std::shared_ptr<const TransferTable> table_;
-    vtkNew<PeerWindow> window_;
-    vtkNew<vtkRenderer> renderer_;
     vtkNew<vtkVolume> volume_;
     vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper> gpu_;
     vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> cpu_;
-    vtkNew<vtkUnsignedCharArray> pixels_;
 };
 
 VtkPeer::VtkPeer(const fields::SampledField& sampled, VtkMapper mapper)
@@ -213,6 +174,8 @@ void VtkPeer::crop(const glm::dvec3& lowWorld, const glm::dvec3& highWorld) {
     implementation_->crop(lowWorld, highWorld);
 }
 
-double VtkPeer::lastMs() const { return implementation_->lastMs_; }
+void VtkPeer::mask(const std::vector<unsigned char>& kept) { implementation_->mask(kept); }
+
+double VtkPeer::lastMs() const { return implementation_->lastMs(); }
 
 } // namespace voxsheet::image

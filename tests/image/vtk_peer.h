@@ -6,6 +6,7 @@
 #include "stages/tile_spec.h"
 
 #include <memory>
+#include <vector>
 
 namespace voxsheet::image {
 
@@ -16,9 +17,10 @@ enum class VtkMapper {
 
 /// One volume shown by one mapper, set up so that the comparison is fair: automatic sample distances off,
 /// image sample distance 1, no jitter, linear interpolation, the tile's sample distance, unit
-/// length, table (every entry a control point), clip planes, shading (a full head light alone; VTK's shines
-/// along the view direction, ours from the eye), view and projection, black background, no multisampling. The
-/// mappers end rays by their own fixed rule (opacity above 1 - 1/255).
+/// length, table (every entry a control point), clip planes, isosurfaces (coloured by the table), shading (a
+/// full head light alone; VTK's shines along the view direction, ours from the eye), view and projection,
+/// black background, no multisampling. The mappers end rays by their own fixed rule (opacity above 1 -
+/// 1/255).
 class VtkPeer {
 public:
     /// \param sampled  a field on a grid without rotation or shear (vtkImageData with spacing), of type u8,
@@ -32,6 +34,9 @@ public:
     [[nodiscard]] fields::Picture draw(const TileSpec& tile);
     /// From now on only what lies in this box of the world is drawn (VTK's own cropping).
     void crop(const glm::dvec3& lowWorld, const glm::dvec3& highWorld);
+    /// From now on samples that are 0 here are not drawn, others are (VTK's binary mask; nearest sample).
+    /// \param kept  one per sample of the volume. Throws Unsupported for the CPU mapper.
+    void mask(const std::vector<unsigned char>& kept);
     /// Milliseconds of the last draw(), from the change of the camera to the pixels on the host.
     [[nodiscard]] double lastMs() const;
 

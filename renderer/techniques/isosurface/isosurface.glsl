@@ -43,31 +43,38 @@ struct Light {
 
 float texelAtDepth(Path path, float depth) { return texelAt(path.ray.origin + depth * path.ray.direction); }
 
-bool mayCross(Path path, float depth) {
+// From a chunk with its middle at this depth to the next that a surface may cross, in chunks; 0: one may cross it.
+int chunksAhead(Path path, float middle) {
 #if SKIP_EMPTY
-    return texelFetch(occupiedCells, cellAt(path.ray.origin + depth * path.ray.direction), 0).r != 0u;
+    return stretchesAhead(texelFetch(occupiedCells, cellAt(path.ray.origin + middle * path.ray.direction), 0).r,
+                          float(CHUNK_SAMPLES) * sampleDistanceVoxels);
 #else
-    return true;
+    return 0;
 #endif
 }
 
-// Encloses the crossing of `texel` between two depths to kRefinedVoxels, then interpolates.
+// Where the texel is `texel` between two depths that lie on both sides of it: by false position, with the weight of an end that
+// stays halved (Illinois; Dowell & Jarratt 1971), until it is enclosed to kRefinedVoxels or two guesses in turn lie within an eighth of that.
 float refinedDepth(Path path, float texel, float near, float far, float atNear, float atFar) {
     float wanted = kRefinedVoxels * path.depthPerVoxel;
     float a = near, b = far, fa = atNear - texel, fb = atFar - texel;
-    for (int i = 0; i < 12 && b - a > wanted; ++i) {
-        // First where a straight line crosses, then a short step towards the other end: on smooth data these two enclose
-        // the crossing; halving in between keeps the worst case bounded.
-        float guess = (i & 3) == 3 ? 0.5 * (a + b) : a + (b - a) * clamp(fa / (fa - fb), 0.02, 0.98);
+    float guess = a + (b - a) * clamp(fa / (fa - fb), 0.0, 1.0);
+    float moved = b - a;
+    float side = 0.0; // of the last guess
+    for (int i = 0; i < 12 && min(b - a, 8.0 * moved) > wanted; ++i) {
         float f = texelAtDepth(path, guess) - texel;
         bool before = (f < 0.0) == (fa < 0.0);
-        float next = before ? min(guess + 0.9 * wanted, b) : max(guess - 0.9 * wanted, a);
-        if (before) { a = guess; fa = f; } else { b = guess; fb = f; }
-        if (next <= a || next >= b) continue;
-        f = texelAtDepth(path, next) - texel;
-        if ((f < 0.0) == (fa < 0.0)) { a = next; fa = f; } else { b = next; fb = f; }
+        float kept = side == (before ? 1.0 : -1.0) ? 0.5 : 1.0;
+        side = before ? 1.0 : -1.0;
+        fb = before ? kept * fb : f;
+        fa = before ? f : kept * fa;
+        a = before ? guess : a;
+        b = before ? b : guess;
+        float next = a + (b - a) * clamp(fa / (fa - fb), 0.0, 1.0);
+        moved = abs(next - guess);
+        guess = next;
     }
-    return a + (b - a) * clamp(fa / (fa - fb), 0.0, 1.0);
+    return guess;
 }
 
 void addSurface(inout Light light, vec3 rgb, float alpha) {
@@ -169,16 +176,18 @@ struct March {
 
 float chunkBegin(Path path, int chunk) { return path.span.begin + float(chunk * CHUNK_SAMPLES) * path.spacing; }
 
-// Whether the chunk can hold anything to show.
-bool isWorthEntering(Path path, March at) {
+// To the next chunk that can hold anything to show, in chunks; 0: this one can.
+int worthEnteringAhead(Path path, March at) {
     float begin = chunkBegin(path, at.chunk);
     float length = float(CHUNK_SAMPLES) * path.spacing;
-    bool crossed = mayCross(path, begin + 0.5 * length);
+    int ahead = chunksAhead(path, begin + 0.5 * length);
 #if CLIP_OBJECT
     int verdict = clipVerdict(path.clip, begin, min(begin + length, path.span.end));
-    return verdict >= 0 && (crossed || (verdict == 0 && bool(CAPS)));
+    // A cut may stand anywhere.
+    if (bool(CAPS)) return verdict > 0 ? min(ahead, 1) : verdict < 0 ? 1 : 0;
+    return verdict < 0 ? max(ahead, 1) : ahead;
 #else
-    return crossed;
+    return ahead;
 #endif
 }
 
@@ -269,7 +278,11 @@ bool seekStep(Path path, inout March at) {
     }
     while (!found && at.chunk < at.chunks) {
         if (at.entered) toNextStep(at);
-        while (!at.entered && at.chunk < at.chunks && !isWorthEntering(path, at)) ++at.chunk;
+        int ahead = at.entered ? 0 : 1;
+        while (ahead > 0 && at.chunk < at.chunks) {
+            ahead = worthEnteringAhead(path, at);
+            at.chunk += ahead;
+        }
         if (at.chunk < at.chunks && !at.entered) enter(path, at);
         int count = min(CHUNK_SAMPLES, at.steps - at.chunk * CHUNK_SAMPLES);
         while (at.chunk < at.chunks && at.step < count) {

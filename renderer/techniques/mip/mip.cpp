@@ -10,7 +10,8 @@ void drawMip(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target] = request;
     const auto& volume = volumes.volume;
     auto defines = stages.definesFor(request);
-    defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels)));
+    defines.emplace_back("CHUNK_SAMPLES",
+                         std::to_string(chunkSamples(tile.sampleDistanceVoxels, kLongReach)));
     const auto& program = stages.programs.compute("techniques/mip/mip.glsl", defines);
 
     stages.bindFor(program, request);

@@ -17,11 +17,12 @@ uniform float unitsPerRadius; // bounding radius / unitLength
 
 const float kOpaque = 1.0 / 1024.0;
 
-bool mayShow(vec3 position) {
+// From a chunk with its middle there to the next that may show something, in chunks; 0: it may itself.
+int chunksAhead(vec3 middle) {
 #if SKIP_EMPTY
-    return texelFetch(occupiedCells, cellAt(position), 0).r != 0u;
+    return stretchesAhead(texelFetch(occupiedCells, cellAt(middle), 0).r, float(CHUNK_SAMPLES) * sampleDistanceVoxels);
 #else
-    return true;
+    return 0;
 #endif
 }
 
@@ -101,7 +102,7 @@ float chunkBegin(Path path, int chunk) { return path.span.begin + float(chunk * 
 int wholeIn(int chunk, int whole) { return min(CHUNK_SAMPLES, whole - chunk * CHUNK_SAMPLES); }
 
 #if CLIP_OBJECT
-// Where all that follows is removed, the chunk is the last one of it.
+// Where more chunks show nothing, it is the last one of them.
 void look(Path path, inout Chunk at) {
     float length = float(CHUNK_SAMPLES) * path.spacing;
     float begin = chunkBegin(path, at.index);
@@ -113,7 +114,11 @@ void look(Path path, inout Chunk at) {
     at.verdict = clipVerdict(path.clip, begin, begin + length, removedUntil);
 #endif
     if (at.verdict < 0) at.index = max(at.index, int((removedUntil - path.span.begin) / length) - 1);
-    else if (!mayShow(path.ray.origin + (begin + 0.5 * length) * path.ray.direction)) at.verdict = -1;
+    else {
+        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction);
+        if (ahead > 0) at.verdict = -1;
+        at.index += max(ahead - 1, 0);
+    }
 }
 
 void takeClippedChunk(inout Light light, Path path, int chunk, int count) {
@@ -156,7 +161,11 @@ void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
     int chunk = 0;
     float middle = 0.5 * float(CHUNK_SAMPLES) * path.spacing;
     while (light.transmittance > kOpaque) {
-        while (chunk < chunks && !mayShow(path.ray.origin + (chunkBegin(path, chunk) + middle) * path.ray.direction)) ++chunk;
+        int ahead = 1;
+        while (chunk < chunks && ahead > 0) {
+            ahead = chunksAhead(path.ray.origin + (chunkBegin(path, chunk) + middle) * path.ray.direction);
+            chunk += ahead;
+        }
         if (chunk >= chunks) break;
         takeWhole(light, path, chunk * CHUNK_SAMPLES, wholeIn(chunk, whole));
         ++chunk;

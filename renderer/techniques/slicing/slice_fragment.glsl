@@ -21,7 +21,7 @@ uniform vec3 voxelsPerTexture; // texels of the drawn level per axis
 
 bool mayShow(vec3 position) {
 #if SKIP_EMPTY
-    return texelFetch(occupiedCells, cellAt(position), 0).r != 0u;
+    return texelFetch(occupiedCells, cellAt(position), 0).r == 0u;
 #else
     return true;
 #endif

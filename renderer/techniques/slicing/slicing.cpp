@@ -113,7 +113,8 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const double slabDepth =
         tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, volume.dims, glm::dvec2(0.0)));
     const auto steepest = steepestAdvance(frame);
-    const int slabsPerPolygon = chunkSamples(slabDepth * glm::length(steepest * glm::dvec3(volume.dims)));
+    const int slabsPerPolygon =
+        chunkSamples(slabDepth * glm::length(steepest * glm::dvec3(volume.dims)), kLongReach);
     const double thickness = slabDepth * slabsPerPolygon;
     std::vector<SliceVertex> vertices;
     if (const auto box = keptBox(request)) {
@@ -142,7 +143,8 @@ void SlicingTechnique::drawTriangles(SharedStages& stages, const DrawRequest& re
     const auto& program = stages.programs.graphics("techniques/slicing/slice_vertex.glsl",
                                                    "techniques/slicing/slice_fragment.glsl", defines);
     stages.bindFor(program, request);
-    if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volumes.volume);
+    if (stages.skipEmptySpace)
+        stages.emptySpace.bindOccupied(program, tile.transfer, volumes.volume, kLongReach);
     program.set("voxelsPerTexture", glm::vec3(volumes.volume.dims));
     program.set("slabDepth", static_cast<float>(slabDepth));
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));
