@@ -10,6 +10,8 @@
 #include "store/volume_store.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <set>
 
 #include <sched.h>
@@ -177,20 +179,37 @@ std::vector<std::string> Engine::Implementation::import(const std::vector<Import
     std::vector<sheet::NamedDataset> added;
     for (const ImportRequest& request : requests)
         added.push_back(namedDataset(request));
+    // One that is named and read from the same files as before stays where it is, with its new values.
+    const sheet::Snapshot before = workbook.snapshot();
+    const auto isKnown = [&](const sheet::NamedDataset& each) {
+        const auto known = before->datasets.find(each.name);
+        return known != before->datasets.end() &&
+               DatasetKeeper::idOf(known->second) == DatasetKeeper::idOf(each.source);
+    };
+    std::vector<sheet::NamedDataset> fresh;
+    std::copy_if(added.begin(), added.end(), std::back_inserter(fresh), std::not_fn(isKnown));
+    std::vector<std::string> freshNames;
+    if (!fresh.empty())
+        workbook.applyWith([&](const sheet::Workbook& now) {
+            freshNames = chooseNames(now, fresh);
+            sheet::AddDatasets command;
+            command.sheet = layout.sheet.empty() ? now.sheets.front().name : layout.sheet;
+            command.columns = layout.columns;
+            command.columnTitles = layout.columnTitles;
+            command.rowTitles = layout.rowTitles;
+            command.datasets = fresh;
+            for (std::size_t i = 0; i < freshNames.size(); ++i)
+                command.datasets[i].name = freshNames[i];
+            command.place = requests.empty() || requests.front().place;
+            return sheet::Command(std::move(command));
+        });
     std::vector<std::string> names;
-    workbook.applyWith([&](const sheet::Workbook& now) {
-        names = chooseNames(now, added);
-        sheet::AddDatasets command;
-        command.sheet = layout.sheet.empty() ? now.sheets.front().name : layout.sheet;
-        command.columns = layout.columns;
-        command.columnTitles = layout.columnTitles;
-        command.rowTitles = layout.rowTitles;
-        command.datasets = added;
-        for (std::size_t i = 0; i < names.size(); ++i)
-            command.datasets[i].name = names[i];
-        command.place = requests.empty() || requests.front().place;
-        return sheet::Command(std::move(command));
-    });
+    auto next = freshNames.begin();
+    for (const auto& each : added) {
+        // Opening a file again is how a user tries again after a failure, or reads what has changed.
+        datasets.open(each.source);
+        names.push_back(isKnown(each) ? each.name : *next++);
+    }
     return names;
 }
 
@@ -204,8 +223,6 @@ sheet::NamedDataset Engine::Implementation::namedDataset(const ImportRequest& re
         dataset.source.files.push_back(datasets.roots().resolve(file).string());
     }
     dataset.source.options = request.options.is_null() ? "{}" : request.options.dump();
-    // Opening a file again is how a user tries again after a failure, or reads what has changed.
-    datasets.open(dataset.source);
     return dataset;
 }
 

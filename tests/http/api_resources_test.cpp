@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -368,6 +369,57 @@ TEST_F(ApiResources, NoRandomRequestIsAFaultOfTheProgram) {
         EXPECT_NE(answer.status / 100, 5) << method << ' ' << target << ' ' << answer.body;
     }
     EXPECT_EQ(program_->get("/readyz").status, 200);
+}
+
+/// An NRRD file of dims 12x10x8 whose values lie the other way round than sampleNrrd's.
+std::string reversedNrrd() {
+    std::string file = sampleNrrd(0);
+    const auto voxels = file.begin() + static_cast<std::ptrdiff_t>(file.size() - 12 * 10 * 8);
+    std::reverse(voxels, file.end());
+    return file;
+}
+
+TEST(ApiReimport, AFileThatChangedGivesItsNewPicture) {
+    ServedProgram program(1);
+    ASSERT_TRUE(program.waitForImports());
+    const auto file = program.folder() / "a.nrrd";
+    const auto name = program.get("/api/v1/datasets").json().at("datasets").at(0).at("name");
+    const auto picture = [&](const std::string& fields = {}) {
+        return program.ask("GET", kSheet + "/cells/A1/image.png?width=64&height=48", {}, fields);
+    };
+    const auto openAgain = [&](const std::string& contents) {
+        std::ofstream(file, std::ios::binary) << contents;
+        const auto answer =
+            program.ask("POST", "/api/v1/datasets", json{{"files", {file.string()}}, {"name", name}}.dump());
+        ASSERT_EQ(answer.status, 202) << answer.body;
+        ASSERT_EQ(answer.json().at("datasets").at(0), name) << answer.body;
+        ASSERT_TRUE(program.waitForImports());
+    };
+    const auto first = picture();
+    ASSERT_EQ(first.status, 200) << first.body;
+    openAgain(reversedNrrd()); // of the same size
+    const auto second = picture("If-None-Match: " + first.field("ETag") + "\r\n");
+    ASSERT_EQ(second.status, 200) << second.body;
+    EXPECT_TRUE(second.body != first.body);
+    const auto probe = program.get(kSheet + "/probe?x=0&y=0&z=0").json();
+    EXPECT_EQ(probe.at("values").at(0).at("value"), 11 + 90 + 21);
+    openAgain(sampleNrrd(0));
+    const auto third = picture();
+    ASSERT_EQ(third.status, 200) << third.body;
+    EXPECT_TRUE(third.body == first.body);
+    EXPECT_EQ(program.get("/api/v1/datasets").json().at("datasets").size(), 1U);
+    // Uploads: a name is free again after its dataset was removed.
+    const auto uploaded = [&](const std::string& contents) {
+        const auto answer = program.ask("PUT", "/api/v1/datasets/up/content?filename=up.nrrd", contents);
+        EXPECT_EQ(answer.status, 202) << answer.body;
+        EXPECT_TRUE(program.waitForImports());
+        EXPECT_EQ(program.ask("PATCH", kSheet + "/cells/A1", R"({"source": "up"})").status, 200);
+        return picture().body;
+    };
+    EXPECT_TRUE(uploaded(reversedNrrd()) == second.body);
+    EXPECT_EQ(program.ask("PUT", "/api/v1/datasets/up/content?filename=up.nrrd", sampleNrrd(0)).status, 409);
+    EXPECT_EQ(program.ask("DELETE", "/api/v1/datasets/up").status, 204);
+    EXPECT_TRUE(uploaded(sampleNrrd(0)) == first.body);
 }
 
 TEST(ApiShutdown, TermEndsWithinTwoSecondsWithOpenStreams) {

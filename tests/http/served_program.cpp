@@ -64,7 +64,7 @@ void ServedProgram::start(const std::vector<std::string>& arguments) {
     ::close(ends[1]);
     output_ = ends[0];
     std::string line;
-    const auto until = Clock::now() + std::chrono::seconds(20);
+    const auto until = Clock::now() + std::chrono::seconds(60);
     while (line.find('\n') == std::string::npos && Clock::now() < until) {
         pollfd entry{output_, POLLIN, 0};
         if (::poll(&entry, 1, 200) <= 0) continue;
@@ -115,11 +115,12 @@ Answer ServedProgram::ask(const std::string& method, const std::string& target, 
 }
 
 bool ServedProgram::waitForImports() const {
-    const auto until = Clock::now() + std::chrono::seconds(20);
+    const auto until = Clock::now() + std::chrono::seconds(60);
     while (Clock::now() < until) {
-        bool busy = false;
-        const auto answer = get("/api/v1/datasets").json();
-        for (const auto& dataset : answer.value("datasets", nlohmann::json::array()))
+        const auto answer = get("/api/v1/datasets");
+        bool busy = answer.status != 200; // overloaded: to be asked again
+        const auto list = busy ? nlohmann::json::array() : answer.json().at("datasets");
+        for (const auto& dataset : list)
             busy = busy || (dataset.at("state") != "ready" && dataset.at("state") != "failed");
         if (!busy) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -21,7 +21,7 @@ struct Answer {
 class ServedProgram {
 public:
     /// Makes a folder with `files` volumes of 12x10x8 voxels (a.nrrd, b.nrrd, …), starts the program on them
-    /// and waits for its line "ready URL". Throws std::runtime_error if that does not come within 20 s.
+    /// and waits for its line "ready URL". Throws std::runtime_error if that does not come within 60 s.
     explicit ServedProgram(int files = 2, const std::vector<std::string>& moreArguments = {});
     ~ServedProgram();
     ServedProgram(const ServedProgram&) = delete;
@@ -39,7 +39,7 @@ public:
     /// Without token, Host or anything else but what is given.
     [[nodiscard]] Answer askBare(const std::string& method, const std::string& target,
                                  const std::string& fields, const std::string& body = {}) const;
-    /// Waits until every dataset is ready or failed; false after 20 s.
+    /// Waits until every dataset is ready or failed; false after 60 s.
     [[nodiscard]] bool waitForImports() const;
     /// Sends the signal and waits; the exit status, or -1 if it does not end within `seconds`.
     int stop(int signal, double seconds);
