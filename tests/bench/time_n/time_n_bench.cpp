@@ -1,6 +1,8 @@
 #include "bench/time_n/time_n_bench.h"
 
+#include "base/byte_size.h"
 #include "base/errors.h"
+#include "base/host_memory.h"
 #include "bench/time_n/bench_datasets.h"
 #include "bench/time_n/other_load.h"
 #include "bench/time_n/stop_signals.h"
@@ -202,7 +204,9 @@ private:
     TimeNResult result_;
 };
 
-void validate(const TimeNOptions& options) {
+} // namespace
+
+void validateOptions(const TimeNOptions& options) {
     const auto inRange = [](int value, int low, int high, const char* option) {
         if (value < low || value > high)
             throw InvalidInput(option,
@@ -215,13 +219,14 @@ void validate(const TimeNOptions& options) {
     inRange(options.step, 1, 1024, "--step");
     if (options.textureBudgetBytes == 0 || options.memoryBudgetBytes == 0)
         throw InvalidInput("budget", "it must be above 0 bytes");
+    if (options.memoryBudgetBytes > hostMemoryBytes())
+        throw InvalidInput("--memory-budget", "this machine has " + byteText(hostMemoryBytes()))
+            .withField("memory-budget");
 }
-
-} // namespace
 
 TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,
                        const std::function<void(const std::string&)>& progress) {
-    validate(options);
+    validateOptions(options);
     return TimeNRun(options, datasets, progress).run();
 }
 

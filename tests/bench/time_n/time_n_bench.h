@@ -21,4 +21,7 @@ class BenchDatasets;
 [[nodiscard]] TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,
                                      const std::function<void(const std::string&)>& progress);
 
+/// Throws InvalidInput for options out of range: what timeNBench asks before it begins.
+void validateOptions(const TimeNOptions& options);
+
 } // namespace voxsheet::bench

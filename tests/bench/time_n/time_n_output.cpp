@@ -25,6 +25,7 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 BenchDatasets datasetsFor(const TimeNOptions& options, const Progress& progress) {
+    validateOptions(options);
     return BenchDatasets(options.maxN, options.dim, [&](int count) {
         throwIfStopRequested();
         if (count % 16 == 0 || count == options.maxN)
