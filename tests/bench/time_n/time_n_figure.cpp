@@ -54,7 +54,7 @@ std::string settings(const TimeNResult& result) {
 }
 
 std::string ruleText(const TimeNOptions& options) {
-    return std::string("dynamic resolution ") + resolutionCriterionName(options.rule.criterion);
+    return std::string("DR ") + resolutionCriterionName(options.rule.criterion);
 }
 
 void addSegments(PlotPanel& panel, const TimeNResult& result, const TimeUnit& unit) {
@@ -111,6 +111,9 @@ void addPart(PlotPanel& panel, const TimeNResult& result, const TimeUnit& unit, 
 std::vector<PlotRule> bends(const TimeNResult& result) {
     std::vector<PlotRule> rules;
     for (const auto& transition : result.transitions) {
+        const double value = transition.bend.ratio.value;
+        // Where times fell for a while, something else was measured.
+        if (!transition.bend.breaksRule && (value <= 0.0 || std::isinf(value))) continue;
         char text[160];
         std::snprintf(text, sizeof text, "N = %d: R = %.2f%s%s%s", transition.bend.lastN,
                       transition.bend.ratio.value, transition.cause == "unknown" ? "" : ", ",
@@ -154,8 +157,8 @@ std::string timeNFigure(const TimeNResult& result) {
     const TimeUnit unit(std::max(largestMs(result.points), largestMs(result.trials)));
     PlotFigure figure;
     const auto& scene = result.options.scene;
-    figure.title = "Time over N: " + longName(scene.technique) +
-                   (scene.shading ? ", with shading; " : ", without shading; ") + ruleText(result.options);
+    figure.title = longName(scene.technique) + (scene.shading ? ", with shading; " : ", without shading; ") +
+                   ruleText(result.options);
     figure.subtitle = settings(result);
     figure.xLabel = "number of datasets N";
     figure.xLargest = result.options.maxN + 1.0;
