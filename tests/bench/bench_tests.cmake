@@ -8,7 +8,7 @@ set_tests_properties(bench.inside PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_L
     PASS_REGULAR_EXPRESSION "ie lit.*\"ms\":.*\"samples\":.*\"psnr\":")
 
 if(TARGET voxsheet_vtk_peer)
-    add_executable(bench_vs_vtk bench/bench_vs_vtk_main.cpp bench/inside_vs_vtk.cpp bench/bench_options.cpp)
+    add_executable(bench_vs_vtk bench/bench_vs_vtk_main.cpp bench/cells_vs_vtk.cpp bench/inside_vs_vtk.cpp bench/bench_options.cpp)
     target_link_libraries(bench_vs_vtk PRIVATE voxsheet_volume_bench voxsheet_vtk_peer)
     voxsheet_warnings(bench_vs_vtk)
     set_target_properties(bench_vs_vtk PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests/bench)

@@ -4,6 +4,7 @@
 // sample distance and view, no shading, 8-bit pictures on the host; frames alternate, so that what else the
 // machine does hits all alike.
 #include "bench/bench_options.h"
+#include "bench/cells_vs_vtk.h"
 #include "bench/inside_vs_vtk.h"
 #include "bench/json_text.h"
 #include "image/vtk_peer.h"
@@ -83,12 +84,13 @@ RenderDevice deviceOf(const VolumeBenchOptions& options) {
     return RenderThread(std::make_shared<MemoryVolumeProvider>(), renderOptions).device();
 }
 
-/// With --technique only what looks inside; else that after the volumes.
+/// With --technique only what looks inside; else that after the volumes and the sheet of cells.
 std::string compareWithVtk(VolumeBenchOptions options) {
     const auto device = deviceOf(options);
     std::vector<std::string> cases;
     if (options.techniques.empty()) {
         cases = volumesAgainstVtk(options);
+        cases.push_back(cellsAgainstVtk(options));
         options.techniques = {"all"};
     }
     for (auto& one : insideAgainstVtk(options))

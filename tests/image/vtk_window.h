@@ -9,9 +9,11 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <functional>
+#include <vector>
 
 namespace voxsheet::image {
 
@@ -25,16 +27,17 @@ public:
     void OpenGLInitContext() override;
 };
 
-/// One renderer on black, no multisampling.
+/// Renderers on black side by side, no multisampling.
 class VtkWindow {
 public:
-    /// Throws GpuError without EGL.
-    VtkWindow();
+    /// \param cells  columns and rows of renderers. Throws GpuError without EGL.
+    explicit VtkWindow(glm::ivec2 cells = glm::ivec2(1));
     ~VtkWindow();
     VtkWindow(const VtkWindow&) = delete;
     VtkWindow& operator=(const VtkWindow&) = delete;
 
-    [[nodiscard]] vtkRenderer& renderer() { return *renderer_; }
+    /// From left to right, row by row from the top.
+    [[nodiscard]] vtkRenderer& renderer(std::size_t cell = 0) { return *renderers_.at(cell); }
     /// Before anything of VTK's touches OpenGL.
     void makeCurrent() { context_.makeCurrent(); }
 
@@ -43,14 +46,23 @@ public:
     /// \param grid  whose centre the camera looks at
     [[nodiscard]] fields::Picture draw(const TileSpec& tile, const Grid& grid,
                                        const std::function<void()>& change = {});
+    /// The same for all cells at once: their pictures have the first tile's size.
+    struct Cell {
+        TileSpec tile;
+        Grid grid;
+    };
+    [[nodiscard]] fields::Picture draw(const std::vector<Cell>& cells,
+                                       const std::function<void()>& change = {});
     [[nodiscard]] double lastMs() const { return lastMs_; }
 
 private:
-    void setCamera(const CameraSpec& spec, const Grid& grid);
+    static void setCamera(vtkRenderer& renderer, const CameraSpec& spec, const Grid& grid);
+
+    glm::ivec2 cells_;
 
     gpu::Context context_;
     vtkNew<PeerWindow> window_;
-    vtkNew<vtkRenderer> renderer_;
+    std::vector<vtkSmartPointer<vtkRenderer>> renderers_;
     vtkNew<vtkUnsignedCharArray> pixels_;
     double lastMs_ = 0.0;
 };
