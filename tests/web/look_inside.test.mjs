@@ -67,6 +67,9 @@ test("the technique can be switched, and an automatic isovalue stands on the his
     const part = ((await middleOf(isovalueLine())).x - strip.x) / strip.width;
     assert.ok(Math.abs(part - (shown - low) / (high - low)) < 0.02, `at ${part} for ${shown} of ${low} to ${high}`);
     assert.ok(part > 0.05 && part < 0.95, `at ${part}`);
+    const bar = await page.locator('[data-cell="A1"] .bar-scale').boundingBox();
+    const mark = await middleOf(page.locator('[data-cell="A1"] .isovalue-mark'));
+    assert.ok(Math.abs((bar.y + bar.height - mark.y) / bar.height - part) < 0.05, "the colour bar marks it too");
 });
 
 test("dragging an isovalue moves the surfaces of all cells live, and is one undo step", async () => {

@@ -200,6 +200,8 @@ export interface ColourBarInfo {
     opacity?: [number, number][];
     /** Of the isosurfaces as drawn, also when they were chosen from the data, with those that the mirror adds. */
     isovalues?: BarIsovalue[];
+    /** Where another volume colours the surfaces: that one's bar. */
+    colouredBy?: ColourBarInfo | null;
     ticks: ColourBarTick[];
 }
 

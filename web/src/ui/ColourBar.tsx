@@ -1,6 +1,8 @@
 // Which colour means which value: in each tile, or once in the column's header where the range is shared.
 import type { ColourBarInfo } from "../api/types";
 import { formatNumber, formatUnit, withUnit } from "../model/format";
+import { isovalueHandles, isovaluesOf } from "../model/isovalues";
+import type { Scale } from "../model/transfer";
 import { cellOf, currentSheet } from "../state/book";
 import { useSelect } from "./app_context";
 
@@ -17,14 +19,32 @@ export function describeRange(bar: ColourBarInfo): string {
     return withUnit(`${formatNumber(bar.low)} to ${formatNumber(bar.high)}`, bar.unit) + scale;
 }
 
+/** Where isosurfaces stand on the bar; while one is dragged, where it is now. */
+function IsovalueMarks({ cell, bar }: { cell: string; bar: ColourBarInfo }) {
+    const live = useSelect((state) => state.page.live[cell]?.["isovalue"]);
+    const mirror = useSelect((state) => cellOf(currentSheet(state.book), cell)?.style["isosurface.mirror"]?.value === "on");
+    const drawn = bar.isovalues ?? [];
+    const dragged = isovaluesOf(live);
+    const positions =
+        dragged && drawn.length
+            ? isovalueHandles(dragged, mirror, bar, bar.scale as Scale).map(({ position, outside }) => (outside ? null : position))
+            : drawn.map(({ position }) => position);
+    return (
+        <>
+            {positions.map((position, i) => position !== null && <i key={i} class="isovalue-mark" style={{ bottom: `${100 * position}%` }} />)}
+        </>
+    );
+}
+
 export function ColourBar({ cell }: { cell: string }) {
-    const bar = useSelect((state) => state.book.bars[cell]);
+    const own = useSelect((state) => state.book.bars[cell]);
+    const bar = own?.colouredBy ?? own;
     const shown = useSelect((state) => {
         const annotations = cellOf(currentSheet(state.book), cell)?.style["annotations"]?.value;
         return annotations === undefined || annotations === "all";
     });
     const enlarged = useSelect((state) => state.page.enlarged === cell);
-    if (!bar || !shown || (bar.shared && !enlarged)) return null;
+    if (!own || !bar || !shown || (bar.shared && !enlarged)) return null;
     return (
         <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
             <span class="bar-unit">{[bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ")}</span>
@@ -34,6 +54,7 @@ export function ColourBar({ cell }: { cell: string }) {
                         {tick.label}
                     </span>
                 ))}
+                {bar === own && <IsovalueMarks cell={cell} bar={own} />}
             </div>
         </div>
     );
