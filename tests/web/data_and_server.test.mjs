@@ -94,6 +94,19 @@ test("when the server goes away the page says so, and comes back by itself", asy
     assert.deepEqual(page.problems, []);
 });
 
+test("a server that comes back with another workbook shows that one", async () => {
+    const document = await page.evaluate(async () => (await fetch("api/v1/workbook")).json());
+    document.sheets[0].name = "Other";
+    await writeFile(`${folder}/other.json`, JSON.stringify(document));
+    await stopServer(server);
+    await page.locator('.connection[data-phase="lost"]').waitFor();
+    server = await startServer(folder, [`${folder}/other.json`], server.port);
+    await page.locator('.connection[data-phase="live"]').waitFor();
+    await page.getByRole("tab", { name: "Other" }).waitFor();
+    await settled(page, ["A1"]);
+    assert.deepEqual(page.problems, []);
+});
+
 test("a page without the token is told what to do", async () => {
     const stranger = await openPage(browser, new URL("/", server.url).href);
     // Either the server refuses the page itself, or the page says that it may not talk to the server.

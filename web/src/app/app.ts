@@ -47,17 +47,25 @@ export class App {
         rejected: (detail) => this.notices.error(detail),
     });
 
+    /** The sheet that the stream was opened for. */
+    private streamed = "";
+
     readonly sizes = new TileSizes(() => this.sender.touch());
 
     readonly client: StreamClient = new StreamClient({
         url: () => {
             const { clientWidth, clientHeight } = document.documentElement;
-            return streamUrl(this.sheetName(), clientWidth, clientHeight, window.devicePixelRatio || 1);
+            this.streamed = this.sheetName();
+            return streamUrl(this.streamed, clientWidth, clientHeight, window.devicePixelRatio || 1);
         },
         ready: () => true,
         connecting: () => this.setPhase("connecting"),
         message: (message) => this.received(message),
-        lost: () => this.setPhase("lost"),
+        lost: () => {
+            this.setPhase("lost");
+            // The sheet may be gone with the workbook that it was in: the next try must know.
+            void this.sync.book.request();
+        },
         refused: (detail) => this.store.dispatch({ type: "connection/phase", phase: "refused", message: detail }),
         paused: () => {
             this.sender.close();
@@ -111,6 +119,11 @@ export class App {
         this.client.reconnectNow();
     }
 
+    /** Another workbook was opened: its sheets have other names. */
+    private followSheet(): void {
+        if (this.streamed !== this.sheetName()) this.client.reconnectNow();
+    }
+
     private sheetName(): string {
         return currentSheet(this.store.get().book)?.name ?? "";
     }
@@ -130,7 +143,7 @@ export class App {
                 this.opened(String(header["stream"]));
                 break;
             case "workbook":
-                void this.sync.book.request();
+                void this.sync.book.request().then(() => this.followSheet());
                 break;
             case "datasets":
                 void this.sync.datasets.request();

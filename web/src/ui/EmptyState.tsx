@@ -24,7 +24,7 @@ export function EmptyState() {
                 </button>
                 <UploadButton text="upload files" />
                 {hasDemo && (
-                    <button type="button" class="button" onClick={() => void app.notices.attempt(openDemo)}>
+                    <button type="button" class="button" onClick={() => void app.notices.attempt(openDemo).then(() => app.sync.book.request())}>
                         <Sparkles size={16} aria-hidden="true" /> look at the demo
                     </button>
                 )}
