@@ -79,8 +79,8 @@ test("dragging an isovalue moves the surfaces of all cells live, and is one undo
     const { frames } = await dragFrom(page, await middleOf(isovalueLine()), { dx: 60, dy: 0, steps: 30 });
     console.log(`${frames} distinct frames while dragging an isovalue`);
     assert.ok(frames >= 3, `${frames} frames`);
-    const [dragged] = [await waitForStyle(page, "A1", "isovalue", value)].flat();
-    assert.ok(dragged > valueBefore, `${dragged} after ${valueBefore}`);
+    const dragged = await waitForStyle(page, "A1", "isovalue", value);
+    assert.ok([dragged].flat()[0] > valueBefore, `${dragged} after ${valueBefore}`);
     await settled(page, cells);
     const after = await looks();
     assert.deepEqual(changed(after, before), cells);
