@@ -116,6 +116,7 @@ private:
             job->fail(std::make_exception_ptr(Cancelled("the frame", "the renderer is shutting down")));
         }
         inFlight_.clear();
+        partlyDrawn_.clear();
         renderer_.reset();
     }
 
@@ -127,6 +128,9 @@ private:
             command();
         try {
             if (work.job) {
+                // What is more urgent is handed out before anything less urgent is begun.
+                while (!inFlight_.empty() && inFlight_.front().job->priority < work.job->priority)
+                    finishOldest();
                 advance(work.job);
                 while (inFlight_.size() > kTilesInFlight)
                     finishOldest();
@@ -161,13 +165,22 @@ private:
         if (job->settled || isCancelled(*job)) {
             job->fail(std::make_exception_ptr(Cancelled("the frame", "it is no longer wanted")));
             queue_.remove(job);
+            std::erase_if(partlyDrawn_, [&](const InFlight& each) { return each.job == job; });
             return;
         }
         if (!renderer_) restartRenderer(job);
         const bool alone = job->frame.checkTimers;
         while (alone && !inFlight_.empty())
             finishOldest();
-        if (job->issuedCount < job->frame.tiles.size()) beginTile(job, nextTile(*job));
+        const auto partly = std::find_if(partlyDrawn_.begin(), partlyDrawn_.end(),
+                                         [&](const InFlight& each) { return each.job == job; });
+        if (partly != partlyDrawn_.end()) {
+            InFlight drawing = std::move(*partly);
+            partlyDrawn_.erase(partly);
+            resumeTile(std::move(drawing));
+        } else if (job->issuedCount < job->frame.tiles.size()) {
+            beginTile(job, nextTile(*job));
+        }
         while (alone && !inFlight_.empty())
             finishOldest();
         if (job->issuedCount == job->frame.tiles.size()) {
@@ -214,16 +227,15 @@ private:
     /// Draws the tile, or brings in some of what it needs.
     void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
         try {
-            auto drawing =
-                renderer_->begin(job->frame.tiles[tile], job->frame, levelsOf(*job, tile), sliceEnd());
+            auto drawing = renderer_->begin(job->frame.tiles[tile], job->frame, levelsOf(*job, tile),
+                                            sliceEnd(), breaksOf(*job));
             if (!drawing) {
                 waiting_ = {job, tile};
                 publishState();
                 if (!inFlight_.empty()) finishOldest();
                 return;
             }
-            markIssued(*job, tile);
-            inFlight_.push_back({job, tile, std::move(drawing)});
+            keepDrawing({job, tile, std::move(drawing)});
         } catch (const DeviceLost&) {
             throw;
         } catch (...) {
@@ -232,6 +244,36 @@ private:
         }
         if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween(*job);
         publishState();
+    }
+
+    /// What nothing is more urgent than, and what is timed, is drawn at one stretch.
+    static TileBreaks breaksOf(const FrameJob& job) {
+        const bool urgent = job.priority == FramePriority::Interactive;
+        return urgent || job.frame.checkTimers ? TileBreaks::None : TileBreaks::BetweenBands;
+    }
+
+    /// Draws the tile's next band.
+    void resumeTile(InFlight drawing) {
+        const auto job = drawing.job;
+        const auto tile = drawing.tile;
+        try {
+            renderer_->resume(*drawing.drawing, job->frame.tiles[tile], job->frame, levelsOf(*job, tile),
+                              sliceEnd());
+            keepDrawing(std::move(drawing));
+        } catch (...) {
+            markIssued(*job, tile);
+            failTile(job, tile);
+        }
+        publishState();
+    }
+
+    void keepDrawing(InFlight drawing) {
+        if (!drawing.drawing->isDrawn()) {
+            partlyDrawn_.push_back(std::move(drawing));
+            return;
+        }
+        markIssued(*drawing.job, drawing.tile);
+        inFlight_.push_back(std::move(drawing));
     }
 
     static void markIssued(FrameJob& job, std::size_t tile) {
@@ -319,6 +361,7 @@ private:
             queue_.remove(drawing.job);
         }
         inFlight_.clear();
+        partlyDrawn_.clear();
         renderer_.reset();
         publishState();
     }
@@ -348,6 +391,7 @@ private:
     };
     Waiting waiting_; ///< the tile whose volumes were being brought in last
     std::deque<InFlight> inFlight_;
+    std::vector<InFlight> partlyDrawn_; ///< of waiting jobs, at most one each
 
     std::thread thread_;
 };

@@ -28,7 +28,8 @@ enum class FramePriority { Interactive, Final, Export };
 /// Thread-safe. Textures are brought in some milliseconds at a time, so that a frame of higher priority never
 /// waits for a whole one. Frames of higher priority are drawn first, those of one priority in order of
 /// submission. A frame that fails as a whole (device lost) throws GpuError from its future; a tile that fails
-/// sets TilePixels::error. A frame of higher priority goes in between two tiles of a lower one. Frames still
+/// sets TilePixels::error. A frame of higher priority goes in between two tiles
+/// of a lower one, and between bands of some 30 ms of a tile that takes longer. Frames still
 /// waiting at destruction throw Cancelled.
 class RenderThread {
 public:

@@ -42,6 +42,11 @@ std::string budgetNote(const TileSpec& tile, const TileLevels& levels, std::uint
            " does not hold more; raise --texture-budget";
 }
 
+/// At most: along the diagonal of the drawn level.
+double samplesPerPixel(const TileSpec& tile, const TileVolumes& volumes) {
+    return glm::length(glm::dvec3(volumes.volume.volume().dims)) / tile.sampleDistanceVoxels;
+}
+
 RenderDevice withBudget(RenderDevice device, std::uint64_t budgetBytes) {
     if (budgetBytes == 0) return device;
     if (device.memoryBytes > 0 && budgetBytes > device.memoryBytes) {
@@ -79,7 +84,10 @@ std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
                                                        {},
                                                        PixelFormat::Rgba8,
                                                        0,
-                                                       {}});
+                                                       {},
+                                                       {},
+                                                       0,
+                                                       0.0});
 }
 
 TileLevels TileRenderer::levelsFor(const TileSpec& tile, LevelChoice choice) const {
@@ -101,15 +109,14 @@ std::optional<TileVolumes> TileRenderer::acquire(const TileSpec& tile, LevelChoi
 }
 
 std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, const FrameSpec& frame,
-                                                  const TileLevels& levels, Deadline deadline) {
+                                                  const TileLevels& levels, Deadline deadline,
+                                                  TileBreaks breaks) {
     checkSize(tile.sizePixels);
     const std::size_t bytes = static_cast<std::size_t>(tile.sizePixels.x) *
                               static_cast<std::size_t>(tile.sizePixels.y) * pixelBytes(frame.format);
     const auto acquired = acquire(tile, frame.levels, levels, deadline);
     if (!acquired) return nullptr;
     const TileVolumes& volumes = *acquired;
-    const gpu::Texture& target = targets_.acquire(tile.sizePixels);
-
     auto slot = takeSlot(bytes);
     slot->pixels = {};
     slot->pixels.size = tile.sizePixels;
@@ -122,6 +129,16 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, const Fr
     slot->format = frame.format;
     slot->bytes = bytes;
     slot->begun = Clock::now();
+    slot->nextRow = 0;
+    slot->bandsMs = 0.0;
+    if (breaks == TileBreaks::BetweenBands &&
+        pace_.rows(tile.sizePixels, samplesPerPixel(tile, volumes)) < tile.sizePixels.y) {
+        slot->target.emplace(context_, GL_TEXTURE_2D, GL_RGBA32F, glm::ivec3(tile.sizePixels, 1));
+        drawBand(*slot, tile, volumes);
+        return slot;
+    }
+    const gpu::Texture& target = targets_.acquire(tile.sizePixels);
+    slot->nextRow = tile.sizePixels.y;
     slot->timer.begin();
     techniques_.draw(tile, volumes, target);
     resolver_.resolve(target, tile.background, frame.format, slot->packed);
@@ -131,12 +148,40 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, const Fr
     return slot;
 }
 
+void TileRenderer::resume(TileInFlight& tile, const TileSpec& spec, const FrameSpec& frame,
+                          const TileLevels& levels, Deadline deadline) {
+    // Volumes are not held between bands: tiles in between may need their room.
+    if (const auto volumes = acquire(spec, frame.levels, levels, deadline)) drawBand(tile, spec, *volumes);
+}
+
+void TileRenderer::drawBand(TileInFlight& tile, const TileSpec& spec, const TileVolumes& volumes) {
+    const auto begun = Clock::now();
+    const double samples = samplesPerPixel(spec, volumes);
+    const int first = tile.nextRow;
+    const int end = std::min(first + pace_.rows(spec.sizePixels, samples), spec.sizePixels.y);
+    techniques_.draw(spec, volumes, *tile.target, {first, end});
+    glFinish(); // so that the time is known, and nothing of it is left for the tiles in between
+    tile.nextRow = end;
+    pace_.observe(end - first, spec.sizePixels.x, samples, millisecondsSince(begun));
+    if (tile.isDrawn()) {
+        resolver_.resolve(*tile.target, spec.background, tile.format, tile.packed);
+        tile.readback.start(tile.packed, tile.bytes);
+    }
+    tile.bandsMs += millisecondsSince(begun);
+    context_.checkErrors("drawing a tile");
+}
+
 TilePixels TileRenderer::finish(std::unique_ptr<TileInFlight> tile) {
     const std::span<const std::byte> bytes = tile->readback.finish();
     TilePixels pixels = std::move(tile->pixels);
-    pixels.hostMs = millisecondsSince(tile->begun);
-    pixels.timestampMs = tile->timer.milliseconds();
-    pixels.renderMs = plausibleRenderMs(pixels.timestampMs, pixels.hostMs);
+    if (tile->target) { // other tiles were drawn in between: only the host knows its own share
+        pixels.hostMs = pixels.timestampMs = pixels.renderMs = tile->bandsMs;
+        tile->target.reset();
+    } else {
+        pixels.hostMs = millisecondsSince(tile->begun);
+        pixels.timestampMs = tile->timer.milliseconds();
+        pixels.renderMs = plausibleRenderMs(pixels.timestampMs, pixels.hostMs);
+    }
     const std::size_t values =
         static_cast<std::size_t>(pixels.size.x) * static_cast<std::size_t>(pixels.size.y) * 4;
     if (tile->format == PixelFormat::Rgba8) {

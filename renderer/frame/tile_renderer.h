@@ -2,6 +2,7 @@
 // back.
 #pragma once
 
+#include "frame/band_pace.h"
 #include "frame/frame_spec.h"
 #include "frame/target_pool.h"
 #include "frame/tile_resolver.h"
@@ -14,6 +15,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace voxsheet {
@@ -27,7 +29,15 @@ struct TileInFlight {
     PixelFormat format = PixelFormat::Rgba8;
     std::size_t bytes = 0;
     std::chrono::steady_clock::time_point begun;
+    std::optional<gpu::Texture> target; ///< its own, while it is drawn in bands
+    int nextRow = 0;                    ///< that is still to be drawn
+    double bandsMs = 0.0;               ///< spent on the bands so far
+
+    [[nodiscard]] bool isDrawn() const { return nextRow >= pixels.size.y; }
 };
+
+/// Whether a tile that takes long is drawn in bands of rows, with other tiles in between.
+enum class TileBreaks { None, BetweenBands };
 
 /// Everything that lives on the GPU. Belongs to the thread that made it.
 class TileRenderer {
@@ -46,7 +56,12 @@ public:
     /// Makes the volumes resident and queues drawing, resolving and readback. Null when the deadline came
     /// first: to be called again. Throws what the tile is at fault for.
     [[nodiscard]] std::unique_ptr<TileInFlight> begin(const TileSpec& tile, const FrameSpec& frame,
-                                                      const TileLevels& levels, Deadline deadline);
+                                                      const TileLevels& levels, Deadline deadline,
+                                                      TileBreaks breaks = TileBreaks::None);
+    /// Draws the next band of a tile that is not drawn; `spec`, `frame` and `levels` as given to begin. May
+    /// do nothing but bring in volumes that were evicted meanwhile, until the deadline. Throws as begin.
+    void resume(TileInFlight& tile, const TileSpec& spec, const FrameSpec& frame, const TileLevels& levels,
+                Deadline deadline);
     /// Waits for the pixels. Throws GpuError.
     [[nodiscard]] TilePixels finish(std::unique_ptr<TileInFlight> tile);
     /// Throws GpuError when the GPU was reset.
@@ -56,6 +71,7 @@ private:
     [[nodiscard]] std::optional<TileVolumes> acquire(const TileSpec& tile, LevelChoice choice,
                                                      const TileLevels& levels, Deadline deadline);
     [[nodiscard]] std::unique_ptr<TileInFlight> takeSlot(std::size_t bytes);
+    void drawBand(TileInFlight& tile, const TileSpec& spec, const TileVolumes& volumes);
     [[nodiscard]] double plausibleRenderMs(double gpuMs, double wallMs);
 
     gpu::Context context_;
@@ -64,6 +80,7 @@ private:
     TechniqueSet techniques_;
     TileResolver resolver_;
     TargetPool targets_;
+    BandPace pace_;
     std::vector<std::unique_ptr<TileInFlight>> slots_; ///< idle ones
     bool warnedOfTimer_ = false;
 };

@@ -39,7 +39,16 @@ void Framebuffer::bind() const {
     glViewport(0, 0, size_.x, size_.y);
 }
 
-void Framebuffer::unbind() { glBindFramebuffer(GL_FRAMEBUFFER, 0); }
+void Framebuffer::bindRows(int first, int end) const {
+    bind();
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, first, size_.x, end - first);
+}
+
+void Framebuffer::unbind() {
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
 
 VertexArray::VertexArray(Context& context) {
     GLuint id = 0;

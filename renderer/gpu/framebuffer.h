@@ -16,6 +16,9 @@ public:
     ~Framebuffer();
 
     void bind() const; ///< for drawing, viewport = the whole texture
+    /// As bind, and nothing outside of the rows [first, end), counted from the bottom, is cleared or drawn
+    /// until unbind.
+    void bindRows(int first, int end) const;
     static void unbind();
 
 private:

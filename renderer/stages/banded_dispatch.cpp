@@ -26,16 +26,18 @@ int rowsPerDispatch(glm::ivec2 sizePixels, double samplesPerPixel) {
     return kGroupPixels * static_cast<int>(groupRows);
 }
 
-void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double samplesPerPixel) {
+void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double samplesPerPixel,
+                     const PictureRows& asked) {
     program.set("targetSize", sizePixels);
     const int band = rowsPerDispatch(sizePixels, samplesPerPixel);
-    for (int firstRow = 0; firstRow < sizePixels.y; firstRow += band) {
-        const int rows = std::min(band, sizePixels.y - firstRow);
+    const auto [first, end] = asked.within(sizePixels);
+    for (int firstRow = first; firstRow < end; firstRow += band) {
+        const int rows = std::min(band, end - firstRow);
         program.set("firstRow", firstRow);
         const auto groups = (glm::ivec2(sizePixels.x, rows) + kGroupPixels - 1) / kGroupPixels;
         program.set("rowStride", rowStride(groups.y));
         program.dispatch({groups, 1});
-        if (firstRow + band < sizePixels.y) glFlush();
+        if (firstRow + band < end) glFlush();
     }
     gpu::storageBarrier();
 }

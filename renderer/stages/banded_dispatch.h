@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/program.h"
+#include "stages/picture_rows.h"
 
 #include <glm/glm.hpp>
 
@@ -11,8 +12,9 @@ namespace voxsheet {
 /// samples (some 0.1 s on a small GPU).
 [[nodiscard]] int rowsPerDispatch(glm::ivec2 sizePixels, double samplesPerPixel);
 
-/// Dispatches 8x8 groups over the whole picture in bands of rows; sets the uniforms `targetSize` and
+/// Dispatches 8x8 groups over these rows of the picture in bands; sets the uniforms `targetSize` and
 /// `firstRow`. Ends with a barrier that makes the picture visible.
-void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double samplesPerPixel);
+void dispatchPicture(const gpu::Program& program, glm::ivec2 sizePixels, double samplesPerPixel,
+                     const PictureRows& rows);
 
 } // namespace voxsheet

@@ -3,7 +3,7 @@
 namespace voxsheet {
 
 gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     auto defines = ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader);
     for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
                              ShadingStage::defines(tile.shading, volumes.gradients)})
@@ -13,7 +13,7 @@ gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
 }
 
 void SharedStages::bindFor(const gpu::Program& program, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     classification.bind(program, tile.transfer, volumes.volume);
     setRayUniforms(program, frame, tile.sizePixels);
     ClipStage::bind(program, tile, volumes.volume.meta->grid, volumes.clipObject);

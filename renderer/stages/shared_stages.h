@@ -5,6 +5,7 @@
 #include "stages/clip_stage.h"
 #include "stages/colour_volume.h"
 #include "stages/empty_space.h"
+#include "stages/picture_rows.h"
 #include "stages/program_cache.h"
 #include "stages/ray_frame.h"
 #include "stages/shading_stage.h"
@@ -25,6 +26,7 @@ struct DrawRequest {
     const DrawVolumes& volumes;
     const RayFrame& frame;
     const gpu::Texture& target;
+    PictureRows rows; ///< nothing beyond them is written
 };
 
 struct SharedStages {

@@ -109,14 +109,14 @@ TileVolumes TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileS
 }
 
 void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
-                        const gpu::Texture& targetRgba32f) {
+                        const gpu::Texture& targetRgba32f, const PictureRows& rows) {
     validate(tile);
     validateTarget(tile, targetRgba32f);
     auto& stages = implementation_->stages;
     const DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
                               volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
     const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid);
-    const DrawRequest request{tile, volumes, frame, targetRgba32f};
+    const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
     switch (tile.technique) {
     case Technique::Raycast:
         drawRaycast(stages, request);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "residency/residency_manager.h"
+#include "stages/picture_rows.h"
 #include "stages/tile_spec.h"
 #include "techniques/tile_volumes.h"
 
@@ -36,11 +37,13 @@ public:
                                             const TileLevels& levels);
 
     /// Draws `tile` from `volumes` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row
-    /// 0 at the bottom of the picture. Every texel is written: colour premultiplied by alpha, no background.
+    /// 0 at the bottom of the picture. Every texel of the rows is written and no other, with the bits that a
+    /// draw of the whole picture gives it: colour premultiplied by alpha, no background.
     /// The volume's level is drawn, whatever tile.level says. The call returns when the commands are queued
     /// (llvmpipe: when compute work is done). Throws InvalidInput (with field) if the tile's numbers are out
     /// of the ranges documented in TileSpec, GpuError if a program or a texture fails.
-    void draw(const TileSpec& tile, const TileVolumes& volumes, const gpu::Texture& targetRgba32f);
+    void draw(const TileSpec& tile, const TileVolumes& volumes, const gpu::Texture& targetRgba32f,
+              const PictureRows& rows = {});
 
     /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
     void setEmptySpaceSkipping(bool enabled);

@@ -71,6 +71,72 @@ TEST_F(RenderThreadTest, TimestampsAgreeWithTheHostsClock) {
     }
 }
 
+/// Some five times as many samples as the first band of a fresh thread.
+TileSpec largeTile(TileSpec tile) {
+    tile.sizePixels = {480, 301}; // the last band is no multiple of 8
+    tile.sampleDistanceVoxels = 0.1;
+    return tile;
+}
+
+TEST_F(RenderThreadTest, ALargeTileInBandsHasTheBitsOfTheWholeOne) {
+    for (const Technique technique :
+         {Technique::Raycast, Technique::Slices, Technique::Mip, Technique::Surface, Technique::Isosurface})
+        for (const bool shaded : {false, true}) {
+            RenderThread thread(provider_, {}); // has learned no pace
+            TileSpec large = largeTile(tile("ball", technique));
+            large.isosurface.surfaces = {{100.0, {0.2F, 0.6F, 0.9F, 0.5F}}};
+            large.shading.enabled = shaded;
+            large.clip.planes = {{glm::normalize(glm::dvec3(1.0, 0.3, -0.2)), 8.0}};
+            const auto drawn = [&](FramePriority priority) {
+                int looks = 0; // before each band
+                auto result = thread.submit(frameOf({large}, PixelFormat::Rgba32F), priority, [&] {
+                    ++looks;
+                    return false;
+                });
+                auto picture = result.get().tiles.at(0);
+                EXPECT_EQ(picture.error, "");
+                if (priority == FramePriority::Interactive) {
+                    EXPECT_EQ(looks, 1);
+                } else {
+                    EXPECT_GT(looks, 2) << static_cast<int>(technique) << shaded;
+                }
+                return picture;
+            };
+            const auto whole = drawn(FramePriority::Interactive);
+            const auto inBands = drawn(FramePriority::Final);
+            EXPECT_TRUE(whole.rgba32f == inBands.rgba32f) << static_cast<int>(technique) << shaded;
+            EXPECT_TRUE(
+                std::any_of(whole.rgba32f.begin(), whole.rgba32f.end(), [](float f) { return f > 0.1F; }));
+            EXPECT_GT(inBands.renderMs, 0.0);
+        }
+}
+
+TEST_F(RenderThreadTest, AnUrgentFrameGoesInBetweenTheBandsOfALargeTile) {
+    RenderThread thread(provider_, {});
+    auto large = largeTile(tile("ball"));
+    large.sampleDistanceVoxels = 0.02; // longer than any other tile here
+    const auto alone = draw(thread, frameOf({large}));
+    std::atomic<int> looks{0};
+    auto last = thread.submit(frameOf({large}), FramePriority::Final, [&] {
+        ++looks;
+        return false;
+    });
+    while (looks == 0)
+        std::this_thread::yield();
+    // Of the large tile's size, so that it might take its target.
+    auto urgent = tile("lower");
+    urgent.sizePixels = large.sizePixels;
+    EXPECT_EQ(thread.submit(frameOf({urgent}), FramePriority::Interactive).get().tiles.at(0).error, "");
+    EXPECT_EQ(last.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+    EXPECT_TRUE(last.get().tiles.at(0).rgba8 == alone.tiles.at(0).rgba8);
+    EXPECT_GT(looks, 2);
+
+    std::atomic<int> more{0};
+    auto unwanted = thread.submit(frameOf({large}), FramePriority::Final, [&] { return ++more > 2; });
+    EXPECT_THROW((void)unwanted.get(), Cancelled);
+    EXPECT_EQ(draw(thread, frameOf({tile("ball")})).tiles.at(0).error, "");
+}
+
 TEST_F(RenderThreadTest, DrawsAVolumeByEveryTechnique) {
     RenderThread thread(provider_, {});
     for (const Technique technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {

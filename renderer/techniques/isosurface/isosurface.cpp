@@ -59,7 +59,7 @@ double plainTestTolerance(const ResidentVolume& volume) {
 }
 
 gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     auto defines = stages.definesFor(request);
     const auto colours =
         ColourVolumeStage::defines(tile.isosurface.colouredBy, volumes.colours, stages.filterFloatsInShader);
@@ -86,7 +86,7 @@ void validateIsosurface(const IsosurfaceSpec& isosurface) {
 }
 
 void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     const auto& program =
         stages.programs.compute("techniques/isosurface/isosurface.glsl", definesOf(stages, request));
@@ -111,7 +111,7 @@ void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
     target.bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(program, tile.sizePixels,
-                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels);
+                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels, rows);
 }
 
 } // namespace voxsheet

@@ -7,7 +7,7 @@
 namespace voxsheet {
 
 void drawMip(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     auto defines = stages.definesFor(request);
     defines.emplace_back("CHUNK_SAMPLES",
@@ -23,7 +23,7 @@ void drawMip(SharedStages& stages, const DrawRequest& request) {
     program.set("opacityScale", opacity > 0.0F ? 1.0F / opacity : 0.0F);
     target.bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(program, tile.sizePixels,
-                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels);
+                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels, rows);
 }
 
 } // namespace voxsheet

@@ -8,7 +8,7 @@
 namespace voxsheet {
 
 void drawRaycast(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     auto defines = stages.definesFor(request);
     // Near a clip object's surface samples are dear, and short chunks keep close to it.
@@ -24,7 +24,7 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));
     target.bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(program, tile.sizePixels,
-                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels);
+                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels, rows);
 }
 
 } // namespace voxsheet

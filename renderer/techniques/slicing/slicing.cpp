@@ -33,7 +33,7 @@ struct TextureBox {
 
 /// Around what the clip planes leave of the box, in the texture frame; nothing if they leave nothing.
 std::optional<TextureBox> keptBox(const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     if (tile.clip.planes.empty()) return TextureBox{frame.boxLow, frame.boxHigh};
     const auto& grid = volumes.volume.meta->grid;
     const auto polytope = clippedBox(grid, tile.clip.planes);
@@ -108,7 +108,7 @@ void SlicingTechnique::uploadVertices(std::span<const std::byte> bytes) {
 }
 
 void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     const double slabDepth =
         tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, volume.dims, glm::dvec2(0.0)));
@@ -125,7 +125,8 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     }
 
     const gpu::Framebuffer framebuffer(context_, target);
-    framebuffer.bind();
+    const auto [firstRow, endRow] = rows.within(tile.sizePixels);
+    framebuffer.bindRows(firstRow, endRow);
     const glm::vec4 transparent(0.0F);
     glClearBufferfv(GL_COLOR, 0, &transparent.x);
     if (!vertices.empty()) drawTriangles(stages, request, vertices, slabDepth, slabsPerPolygon);
@@ -137,7 +138,7 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
 void SlicingTechnique::drawTriangles(SharedStages& stages, const DrawRequest& request,
                                      std::span<const SliceVertex> vertices, double slabDepth,
                                      int slabsPerPolygon) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     auto defines = stages.definesFor(request);
     defines.emplace_back("SLABS_PER_POLYGON", std::to_string(slabsPerPolygon));
     const auto& program = stages.programs.graphics("techniques/slicing/slice_vertex.glsl",

@@ -96,7 +96,7 @@ void SurfaceTechnique::uploadVertices(std::span<const std::byte> bytes) {
 }
 
 void SurfaceTechnique::draw(SharedStages& stages, const DrawRequest& request) {
-    const auto& [tile, volumes, frame, target] = request;
+    const auto& [tile, volumes, frame, target, rows] = request;
     const auto& grid = volumes.volume.meta->grid;
     const auto polytope = clippedBox(grid, tile.clip.planes);
     const auto eye = glm::dvec3(glm::inverse(tile.camera.viewFromWorld)[3]);
@@ -104,7 +104,8 @@ void SurfaceTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const auto faces = visibleFaces(polytope, tile, grid, frame, eyeInside);
 
     const gpu::Framebuffer framebuffer(context_, target, &depthFor(tile.sizePixels));
-    framebuffer.bind();
+    const auto [firstRow, endRow] = rows.within(tile.sizePixels);
+    framebuffer.bindRows(firstRow, endRow);
     const glm::vec4 transparent(0.0F);
     const float farthest = 1.0F;
     glClearBufferfv(GL_COLOR, 0, &transparent.x);
