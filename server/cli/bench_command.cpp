@@ -1,6 +1,7 @@
 #include "base/errors.h"
 #include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
+#include "cli/bench/http_bench.h"
 #include "cli/bench/stream_bench.h"
 #include "cli/bench/time_n_command.h"
 #include "cli/commands.h"
@@ -54,6 +55,21 @@ Action addStream(CLI::App& app) {
     return withOutput(app, [options] { return runStreamBench(*options); });
 }
 
+Action addHttp(CLI::App& app) {
+    auto options = std::make_shared<HttpBenchOptions>();
+    app.add_option("--clients", options->clients, "Numbers of clients that ask at the same time")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 512));
+    app.add_option("--seconds", options->seconds, "Time of asking per case")->check(CLI::Range(0.05, 600.0));
+    app.add_option("--dim", options->dim, "Samples per edge of the volume")->check(CLI::Range(16, 512));
+    app.add_option("--width", options->width, "Width of the pictures in pixels")->check(CLI::Range(16, 4096));
+    app.add_option("--height", options->height, "Height of the pictures in pixels")
+        ->check(CLI::Range(16, 4096));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    app.footer("Example: voxsheet bench http --clients 1,4,16 --json");
+    return withOutput(app, [options] { return runHttpBench(*options); });
+}
+
 Action addVolume(CLI::App& app) {
     auto options = std::make_shared<bench::VolumeBenchOptions>();
     auto type = std::make_shared<std::string>("u8");
@@ -98,6 +114,7 @@ Action addBench(CLI::App& app) {
     };
     add("volume", "Time and quality of every volume rendering technique on one volume", &addVolume);
     add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
+    add("http", "Requests per second and their latency over loopback", &addHttp);
     add("time-n", "Rendering time over the number of datasets, with dynamic resolution or without",
         &addTimeN);
     return [benches] {

@@ -42,3 +42,8 @@ if(TARGET voxsheet AND TARGET bench_time_n)
     set_tests_properties(bench.time_n_figures PROPERTIES LABELS bench TIMEOUT 300 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\".*\"n_max\"")
 endif()
+if(TARGET voxsheet)
+    add_test(NAME bench.http COMMAND voxsheet bench http --clients 1,3 --seconds 0.1 --dim 16 --width 32 --height 32 --json)
+    set_tests_properties(bench.http PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"latency_ms_p99\".*\"route\": \"image_drawn\"")
+endif()

@@ -1,5 +1,6 @@
 #include "raw_client.h"
 
+#include "fields/patience.h"
 #include "http/message/header_list.h"
 
 #include <algorithm>
@@ -20,7 +21,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Short times are for looking whether something is there; from a second on they are limits, which a busy
+/// machine stretches.
 Clock::time_point after(double seconds) {
+    if (seconds >= 1.0) seconds *= fields::patience();
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 

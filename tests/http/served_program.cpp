@@ -1,5 +1,6 @@
 #include "served_program.h"
 
+#include "fields/patience.h"
 #include "raw_client.h"
 
 #include <chrono>
@@ -87,7 +88,7 @@ ServedProgram::~ServedProgram() {
 
 int ServedProgram::stop(int signal, double seconds) {
     ::kill(pid_, signal);
-    const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+    const auto until = Clock::now() + std::chrono::duration<double>(seconds * fields::patience());
     int status = 0;
     while (::waitpid(pid_, &status, WNOHANG) == 0) {
         if (Clock::now() > until) return -1;

@@ -41,7 +41,8 @@ public:
                                  const std::string& fields, const std::string& body = {}) const;
     /// Waits until every dataset is ready or failed; false after 60 s.
     [[nodiscard]] bool waitForImports() const;
-    /// Sends the signal and waits; the exit status, or -1 if it does not end within `seconds`.
+    /// Sends the signal and waits; the exit status, or -1 if it does not end within `seconds` (of an
+    /// idle machine).
     int stop(int signal, double seconds);
 
 private:

@@ -1,17 +1,14 @@
 #include "cli/bench/stream_bench.h"
 
 #include "bench/scratch_folder.h"
-#include "cli/bench/bench_volumes.h"
+#include "cli/bench/percentile.h"
+#include "cli/bench/served_volumes.h"
 #include "cli/bench/stream_probe.h"
-#include "cli/engine_arguments.h"
-#include "http/resource/web_server.h"
 #include "sheet/layout.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <thread>
+#include <vector>
 
 namespace voxsheet::cli {
 
@@ -23,45 +20,6 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double percentile(std::vector<double> values, double fraction) {
-    if (values.empty()) return 0.0;
-    std::sort(values.begin(), values.end());
-    const auto index = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size()))) - 1;
-    return values[std::min(index, values.size() - 1)];
-}
-
-/// The server with `cells` volumes, as a page would meet it.
-struct Served {
-    Served(const StreamBenchOptions& options, int cells, const std::filesystem::path& scratch)
-        : engine(engineFor(options, scratch)) {
-        EngineArguments arguments;
-        arguments.sources = writeBenchVolumes(scratch, cells, options.dim);
-        openSources(engine, arguments);
-        http::WebServerOptions web;
-        web.server.port = 0;
-        server = std::make_unique<http::WebServer>(web, engine, tiles, hub);
-        server->start();
-    }
-    ~Served() { server->stop(); }
-    Served(const Served&) = delete;
-    Served& operator=(const Served&) = delete;
-
-    static engine::EngineOptions engineFor(const StreamBenchOptions& options,
-                                           const std::filesystem::path& scratch) {
-        EngineArguments arguments;
-        arguments.store = (scratch / "store").string();
-        arguments.uploadDir = (scratch / "uploads").string();
-        arguments.roots = {scratch.string()};
-        arguments.device = options.device;
-        return engineOptions(arguments);
-    }
-
-    engine::Engine engine;
-    stream::TileService tiles{engine};
-    stream::StreamHub hub{engine, tiles};
-    std::unique_ptr<http::WebServer> server;
-};
-
 nlohmann::json viewOf(const engine::Engine& engine, glm::ivec2 tile, double azimuth, bool moving) {
     nlohmann::json tiles = nlohmann::json::array();
     for (const auto& [address, cell] : engine.snapshot()->sheets.front().cells)
@@ -72,11 +30,11 @@ nlohmann::json viewOf(const engine::Engine& engine, glm::ivec2 tile, double azim
 nlohmann::json runCase(const StreamBenchOptions& options, int cells) {
     const bench::ScratchFolder scratch;
     const auto start = Clock::now();
-    Served served(options, cells, scratch.path());
-    StreamProbe probe(served.server->port(), served.engine.snapshot()->sheets.front().name);
+    const ServedVolumes served(cells, options.dim, options.device, scratch.path());
+    StreamProbe probe(served.port(), served.engine().snapshot()->sheets.front().name);
     const auto layout = sheet::chooseLayout(static_cast<std::size_t>(cells));
     const glm::ivec2 tile{options.width / layout.columns, options.height / layout.rows};
-    probe.post(viewOf(served.engine, tile, 30.0, false));
+    probe.post(viewOf(served.engine(), tile, 30.0, false));
     if (!probe.waitFinal(static_cast<std::size_t>(cells), 120.0))
         throw IoError("stream bench", "no picture came within 120 s");
     const double firstPictureMs = secondsSince(start) * 1e3;
@@ -86,13 +44,13 @@ nlohmann::json runCase(const StreamBenchOptions& options, int cells) {
     double azimuth = 30.0;
     while (secondsSince(drag) < options.seconds) {
         azimuth += 1.0;
-        probe.post(viewOf(served.engine, tile, azimuth, true));
+        probe.post(viewOf(served.engine(), tile, azimuth, true));
         std::this_thread::sleep_for(std::chrono::milliseconds(16));
     }
     const auto frames = probe.takeFrames();
     const double dragSeconds = secondsSince(drag);
     const auto release = Clock::now();
-    probe.post(viewOf(served.engine, tile, azimuth, false));
+    probe.post(viewOf(served.engine(), tile, azimuth, false));
     const bool final = probe.waitFinal(static_cast<std::size_t>(cells), 60.0);
     const double finalMs = secondsSince(release) * 1e3;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/errors.h"
+#include "fields/patience.h"
 #include "import/import_client.h"
 #include "store/volume_store.h"
 
@@ -79,7 +80,7 @@ protected:
             const double took =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             EXPECT_EQ(errorKindName(error.kind()), std::string(errorKindName(kind))) << error.what();
-            EXPECT_LT(took, seconds) << error.what();
+            EXPECT_LT(took, seconds * fields::patience()) << error.what();
             return error.what();
         }
         ADD_FAILURE() << file << " was imported";

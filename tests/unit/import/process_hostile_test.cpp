@@ -87,8 +87,8 @@ TEST_F(ProcessHostile, AReaderBlockedAmongTheVoxelsEndsAfterALongerTime) {
 }
 
 TEST_F(ProcessHostile, AReaderThatOnlyRestsBetweenStepsIsLeftAlone) {
-    // Two thirds of the time that counts as blocked, four times; a sleeper in its place would be ended.
-    settings_.blockedHeaderSeconds = 0.6;
+    // A third of the time that counts as blocked, four times; one long sleep in their place would be ended.
+    settings_.blockedHeaderSeconds = 1.2;
     replaceImporter("for step in 1 2 3 4; do sleep 0.4; done; exit 3");
     EXPECT_TRUE(contains(failure(smallVolume(), ErrorKind::Internal, 20.0), "exit code 3"));
 }
