@@ -5,6 +5,7 @@
 #include "cli/demo/demo_workbook.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
+#include "cli/level_arguments.h"
 #include "cli/look_arguments.h"
 #include "http/guard/token.h"
 #include "http/resource/web_server.h"
@@ -29,6 +30,7 @@ namespace {
 struct ServeArguments {
     EngineArguments engine;
     LookArguments look;
+    LevelArguments levels;
     std::string host = "127.0.0.1";
     int port = 8080;
     bool portAskedFor = false;
@@ -105,10 +107,11 @@ void saveWhatIsNotSaved(const engine::Engine& engine) {
 int runServe(const ServeArguments& arguments) {
     const auto signals = blockStopSignals();
     const auto options = engineOptions(arguments.engine);
+    const auto levels = levelSettings(arguments.levels);
     engine::Engine engine(options);
     if (const auto* device = engine.device()) announceDevice(*device, engine.options());
     stream::TileService tiles(engine);
-    stream::StreamHub hub(engine, tiles);
+    stream::StreamHub hub(engine, tiles, levels);
     auto web = webOptions(arguments);
     // The upload folder is one that sources may always lie in.
     web.openDemo = [&engine, demoFolder = options.uploadDir / "demo"] {
@@ -137,6 +140,7 @@ Action addServe(CLI::App& app) {
     auto arguments = std::make_shared<ServeArguments>();
     addEngineArguments(app, arguments->engine);
     addLookArguments(app, arguments->look);
+    addLevelArguments(app, arguments->levels);
     app.add_option("--host", arguments->host, "Address to listen on");
     auto* port = app.add_option("--port", arguments->port,
                                 "Port; 0 = any free one (default: 8080, or the next free one)")

@@ -241,7 +241,8 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.dataset = meta.key;
     spec.field = shown.field;
     spec.step = shown.step;
-    spec.level = std::clamp(std::max(level, static_cast<int>(style.quality)), 0, meta.levels() - 1);
+    const int wanted = style.level.value_or(std::max(level, static_cast<int>(style.quality)));
+    spec.level = std::clamp(wanted, 0, meta.levels() - 1);
     spec.technique = drawnTechnique(style.technique);
     spec.camera = resolveCamera(style.camera, meta.grid, sizePixels);
     spec.transfer = std::move(table);

@@ -53,7 +53,8 @@ struct FieldAndStep {
 
 /// All but what other volumes decide: the clip object, and the isosurfaces (clip_resolver.h,
 /// isosurface_resolver.h).
-/// \param level  smallest level of detail asked for; the style's quality may ask for a coarser one
+/// \param level  smallest level of detail asked for; the style's quality may ask for a coarser one, and its
+/// level is what it says
 [[nodiscard]] TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta,
                                    const FieldAndStep& shown, std::shared_ptr<const TransferTable> table,
                                    glm::ivec2 sizePixels, int level, double sampleDistanceFactor);

@@ -164,10 +164,13 @@ PreparedTile Engine::prepareTile(const sheet::Workbook& workbook, const std::str
     return tile;
 }
 
-std::future<FrameResult> Engine::render(const std::vector<TileSpec>& tiles, FramePriority priority,
-                                        std::function<bool()> cancelled, PixelFormat format,
-                                        LevelChoice levels) const {
-    return implementation_->render(tiles, priority, std::move(cancelled), format, levels);
+PreparedTile Engine::atLevel(PreparedTile tile, int level) const {
+    return implementation_->tiles.atLevel(std::move(tile), level);
+}
+
+std::future<FrameResult> Engine::render(FrameSpec frame, FramePriority priority,
+                                        std::function<bool()> cancelled) const {
+    return implementation_->render(std::move(frame), priority, std::move(cancelled));
 }
 
 void Engine::setShown(const std::string& viewer, std::vector<WantedVolume> volumes) {
@@ -179,10 +182,10 @@ void Engine::setShown(const std::string& viewer, std::vector<WantedVolume> volum
 
 SheetImage Engine::renderSheet(const SheetImageRequest& request) const {
     const sheet::Snapshot now = snapshot();
-    const SheetImageSources sources{keys(), implementation_->tiles,
-                                    [this](const std::vector<TileSpec>& specs, PixelFormat format) {
-                                        return render(specs, FramePriority::Export, {}, format).get();
-                                    }};
+    const SheetImageSources sources{
+        keys(), implementation_->tiles, [this](const std::vector<TileSpec>& specs, PixelFormat format) {
+            return render({.tiles = specs, .format = format}, FramePriority::Export).get();
+        }};
     return composeSheet(request, *now, implementation_->contents(*now), sources);
 }
 

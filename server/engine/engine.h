@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "engine/cell_state.h"
 #include "engine/dataset_state.h"
+#include "engine/level_needs.h"
 #include "frame/render_thread.h"
 #include "residency/host_cache_state.h"
 #include "sheet/address.h"
@@ -105,6 +106,9 @@ struct TileQuality {
     glm::ivec2 sizePixels{256};        ///< of the picture that is rendered
     int level = 0;                     ///< smallest level of detail; 0 = full
     double sampleDistanceFactor = 1.0; ///< > 1 while moving: multiplies sampling.distance
+    /// For a page, where the style key `level` counts wherever it is set. Otherwise only the view's `request`
+    /// may set it: exports are at full level unless they ask for another one themselves.
+    bool live = false;
 };
 
 /// One cell made ready to draw: everything that decides its pixels, and the identity of those pixels.
@@ -115,6 +119,8 @@ struct PreparedTile {
     std::string code;      ///< "", "#IMPORT!", "#GRID!", …
     std::string message;   ///< sentence for `code`
     double progress = 1.0; ///< < 1 while the source is being imported or computed
+    LevelNeeds needs;      ///< with `spec` only
+    int colourVolumeLevels = 1; ///< of the volume that colours isosurfaces, if there is one
 };
 
 struct ProbeValue {
@@ -218,10 +224,10 @@ public:
     [[nodiscard]] PreparedTile prepareTile(const sheet::Workbook& workbook, const std::string& sheetName,
                                            const sheet::Address& cell, const View& view,
                                            const TileQuality& quality) const;
-    [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& tiles, FramePriority priority,
-                                                  std::function<bool()> cancelled = {},
-                                                  PixelFormat format = PixelFormat::Rgba8,
-                                                  LevelChoice levels = LevelChoice::Exact) const;
+    /// The same tile at another level of detail, clamped to those there are. It must have a spec.
+    [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
+    [[nodiscard]] std::future<FrameResult> render(FrameSpec frame, FramePriority priority,
+                                                  std::function<bool()> cancelled = {}) const;
     /// What a viewer (a page, by any name of its own) looks at, and what it may look at next; replaces what
     /// it showed before. Empty: nothing any more. What all viewers show together is evicted last and brought
     /// in first.

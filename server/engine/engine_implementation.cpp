@@ -101,7 +101,7 @@ Engine::Implementation::Implementation(EngineOptions given)
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
       hostCache(makeHostCache(options, datasets.volumes())), thread(renderThread(options, hostCache)),
       tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), namedVolumeSources(datasets),
-            environmentOf(thread.get())),
+            {environmentOf(thread.get()), thread && !thread->device().software}),
       probes(*keys, datasets.volumes()),
       workbook(keys, options, [this](std::uint64_t version) { workbookChanged(version); }) {}
 
@@ -256,16 +256,10 @@ std::size_t Engine::Implementation::indexOf(const sheet::Workbook& snapshot, con
     return sheetName.empty() ? 0 : sheet::sheetIndex(snapshot, sheetName);
 }
 
-std::future<FrameResult> Engine::Implementation::render(const std::vector<TileSpec>& specs,
-                                                        FramePriority priority,
-                                                        std::function<bool()> cancelled, PixelFormat format,
-                                                        LevelChoice levels) const {
+std::future<FrameResult> Engine::Implementation::render(FrameSpec frame, FramePriority priority,
+                                                        std::function<bool()> cancelled) const {
     if (!thread)
         throw Unsupported("pictures", "this engine was started without a renderer", "start it with one");
-    FrameSpec frame;
-    frame.tiles = specs;
-    frame.format = format;
-    frame.levels = levels;
     return thread->submit(std::move(frame), priority, std::move(cancelled));
 }
 

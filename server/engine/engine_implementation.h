@@ -55,9 +55,8 @@ public:
     /// Of the named sheet, or of the first if the name is empty. Throws NotFound.
     [[nodiscard]] static std::size_t indexOf(const sheet::Workbook& snapshot, const std::string& sheetName);
 
-    [[nodiscard]] std::future<FrameResult> render(const std::vector<TileSpec>& specs, FramePriority priority,
-                                                  std::function<bool()> cancelled, PixelFormat format,
-                                                  LevelChoice levels) const;
+    [[nodiscard]] std::future<FrameResult> render(FrameSpec frame, FramePriority priority,
+                                                  std::function<bool()> cancelled) const;
 
     EngineOptions options;
     std::shared_ptr<const sheet::KeyTable> keys;

@@ -96,8 +96,10 @@ public:
             drawCell(canvas, i, picture);
         }
         image_.pixels = canvas.pixels(request_.format);
-        for (const TilePixels& tile : frame.tiles)
+        for (const TilePixels& tile : frame.tiles) {
             image_.pixels.renderMs += tile.renderMs;
+            image_.pixels.level = std::max(image_.pixels.level, tile.level);
+        }
         image_.identity = textIdentity(identity_);
         return std::move(image_);
     }
@@ -211,8 +213,15 @@ private:
         const PixelRect& strip = layout_.cellTitles[index];
         canvas.fill(strip, palette_.strip);
         const int font = layout_.fontPixels;
-        canvas.text({strip.low.x + font / 2, (strip.low.y + strip.high.y) / 2}, TextAlign::Left,
-                    sheet::cellTitle(*cell.cell), font, palette_.text, strip.size().x - font);
+        const int middle = (strip.low.y + strip.high.y) / 2;
+        const int level = picture != nullptr ? picture->level : 0;
+        const int levelWidth = level > 0 ? 5 * font : 0;
+        if (level > 0) {
+            canvas.text({strip.high.x - font / 2, middle}, TextAlign::Right, "level " + std::to_string(level),
+                        font, palette_.quiet, levelWidth);
+        }
+        canvas.text({strip.low.x + font / 2, middle}, TextAlign::Left, sheet::cellTitle(*cell.cell), font,
+                    palette_.text, strip.size().x - font - levelWidth);
     }
 
     void drawState(Canvas& canvas, const DrawnCell& cell, const PixelRect& area, const TilePixels* picture) {

@@ -130,7 +130,9 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
     if (content.state == CellState::Pending) tile.progress = 0.0;
     if (content.state == CellState::Ready) {
         try {
-            draw(tile, look(workbook, sheetIndex, cell, view, contents), quality);
+            CellLook shown = look(workbook, sheetIndex, cell, view, contents);
+            if (!quality.live && !view.request.contains("level")) shown.resolved.style.level.reset();
+            draw(tile, shown, quality);
         } catch (const InvalidInput& error) {
             if (!view.request.empty()) throw;
             tile.code = codeOf(error);
@@ -142,7 +144,7 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
     }
     if (!tile.spec) {
         tile.identity =
-            textIdentity(environment_ + "\n" + tile.code + "\n" + tile.message + "\n" +
+            textIdentity(environment_.text + "\n" + tile.code + "\n" + tile.message + "\n" +
                          std::to_string(quality.sizePixels.x) + "x" + std::to_string(quality.sizePixels.y));
     }
     return tile;
@@ -164,9 +166,21 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
         spec.isosurface.colouredBy =
             ColourVolume{by->meta->key, by->shown.field, by->shown.step,
                          std::min(spec.level, by->meta->levels() - 1), cache_.table(by->transfer.function)};
+        tile.colourVolumeLevels = by->meta->levels();
     }
+    tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
     tile.spec = std::move(spec);
-    tile.identity = tileIdentity(*tile.spec, environment_);
+    tile.identity = tileIdentity(*tile.spec, environment_.text);
+}
+
+PreparedTile TileMaker::atLevel(PreparedTile tile, int level) const {
+    TileSpec& spec = tile.spec.value();
+    const int wanted = std::clamp(level, 0, static_cast<int>(tile.needs.textureBytes.size()) - 1);
+    if (wanted == spec.level) return tile;
+    spec.level = wanted;
+    if (auto& by = spec.isosurface.colouredBy) by->level = std::min(wanted, tile.colourVolumeLevels - 1);
+    tile.identity = tileIdentity(spec, environment_.text);
+    return tile;
 }
 
 } // namespace voxsheet::engine

@@ -34,12 +34,18 @@ struct CellLook {
     std::optional<MissingVolume> missing; ///< a volume that the style names; without it there is no picture
 };
 
+/// What is the same for all tiles of this program.
+struct TileEnvironment {
+    std::string text;              ///< device, driver, build: part of every identity
+    bool exactR8Filtering = false; ///< chooseTextureEncoding
+};
+
 /// Thread-safe.
 class TileMaker {
 public:
     TileMaker(const sheet::KeyTable& keys, const ColourMapTable& maps,
               std::shared_ptr<const VolumeProvider> volumes, NamedVolumeSources named,
-              std::string environment)
+              TileEnvironment environment)
         : keys_(keys), maps_(maps), cache_(std::move(volumes)), named_(keys, std::move(named)),
           environment_(std::move(environment)) {}
 
@@ -56,6 +62,8 @@ public:
                                        const sheet::Address& cell, const View& view,
                                        const TileQuality& quality,
                                        const std::shared_ptr<const CellContents>& contents);
+    /// As Engine::atLevel.
+    [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
 
 private:
     /// Of all cells of the sheet whose own range.mode is shared, with `own` among them.
@@ -80,7 +88,7 @@ private:
     };
     std::mutex mutex_;
     SharedRange shared_;
-    std::string environment_; ///< device, driver, build: part of every identity
+    TileEnvironment environment_;
 };
 
 } // namespace voxsheet::engine

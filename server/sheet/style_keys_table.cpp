@@ -127,6 +127,14 @@ void addPicture(std::vector<KeySpec>& keys) {
     keys.push_back(
         choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,
                "Level of detail of the picture at rest: every voxel, or every second, fourth or eighth."));
+    KeySpec level = withAuto(number(
+        "level", "", 0, 8, Automatic{}, group,
+        "Level of detail of the live picture, each with half the samples per axis: 0 (every voxel) to 8, "
+        "or auto: by the sheet's policy. Exported pictures are at full level unless level or quality is "
+        "set for the export itself.",
+        "number"));
+    level.type = KeyType::Integer;
+    keys.push_back(level);
     keys.push_back(choice(
         "texture.format", {"auto", "half"}, "auto", group,
         "Volumes of 32-bit floats as textures: as they are, or (half) as 16-bit floats over their range, in "

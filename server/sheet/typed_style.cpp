@@ -187,6 +187,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.range.scale = read.choice<ValueScale>("range.scale", kScales);
     style.sampleDistanceVoxels = read.get<double>("sampling.distance");
     style.quality = read.choice<Quality>("quality", kQualities);
+    if (const auto level = read.find<std::int64_t>("level")) style.level = static_cast<int>(*level);
     style.background = read.get<Colour>("background");
     style.annotations = read.choice<Annotations>("annotations", kAnnotations);
     style.clip = clipOf(read);

@@ -150,6 +150,7 @@ struct TypedStyle {
     RangeStyle range;
     double sampleDistanceVoxels = 0.5; ///< voxels of the drawn level
     Quality quality = Quality::Full;
+    std::optional<int> level; ///< of the live picture; not set: by policy
     Colour background;
     Annotations annotations = Annotations::All;
     ClipStyle clip;

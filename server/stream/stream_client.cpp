@@ -1,6 +1,5 @@
 #include "stream/stream_client.h"
 
-#include "engine/shown_volumes.h"
 #include "stream/message.h"
 
 #include <algorithm>
@@ -18,27 +17,17 @@ constexpr auto kRestAfter = 150ms;     ///< no change for so long: final picture
 constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
 constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
-constexpr std::size_t kMostNeighbours = 32; ///< cells beside the visible ones that are got ready
-constexpr double kFinalChunkMs = 120.0; ///< final pictures are sent in chunks of about this time, so that a
-                                        ///< new gesture is not kept waiting
 
 double milliseconds(std::chrono::steady_clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-glm::ivec2 scaled(const glm::ivec2& size, double scale) {
-    return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
-}
-
-std::string cellState(const engine::PreparedTile& tile) {
-    return tile.code + "|" + tile.message + "|" + std::to_string(std::lround(tile.progress * 100.0));
-}
-
 } // namespace
 
-StreamClient::StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles)
-    : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles),
-      version_(engine.version()) {}
+StreamClient::StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles,
+                           SheetLevels& levels)
+    : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles), levels_(levels),
+      version_(engine.version()), planner_(id_, sheet_, engine, tiles, levels) {}
 
 StreamClient::~StreamClient() { engine_.setShown(id_, {}); }
 
@@ -67,6 +56,12 @@ void StreamClient::changed(engine::ChangeKind kind, std::uint64_t version) {
     wake_.notify_all();
 }
 
+void StreamClient::levelsChanged() {
+    const std::lock_guard lock(mutex_);
+    dirty_ = true;
+    wake_.notify_all();
+}
+
 void StreamClient::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -76,6 +71,16 @@ void StreamClient::close() {
 ClientView StreamClient::view() const {
     const std::lock_guard lock(mutex_);
     return view_;
+}
+
+bool StreamClient::hasView() const {
+    const std::lock_guard lock(mutex_);
+    return hasView_;
+}
+
+std::chrono::steady_clock::time_point StreamClient::lastChange() const {
+    const std::lock_guard lock(mutex_);
+    return lastChange_;
 }
 
 StreamStatistics StreamClient::statistics() const {
@@ -129,16 +134,18 @@ std::optional<std::string> StreamClient::next() {
             const auto view = view_;
             dirty_ = false;
             lock.unlock();
-            auto work = plan(view, interactive);
-            const bool finished = work.tiles.empty() && work.notices.empty();
+            auto work = planner_.plan(view, interactive);
+            const bool finished = work.empty();
             const auto start = Clock::now();
             const bool drawn = finished || draw(work, view.id);
             if (drawn && !finished) emit(work, view, milliseconds(Clock::now() - start));
+            // After a redraw of all cells a rule may change their level.
+            const bool judgeAgain = finished && !interactive && planner_.rested();
             lock.lock();
             // More to do: the pictures in between were not final ones, or only a chunk of the final ones was
             // drawn.
-            if (!finished) dirty_ = true;
-            if (finished && !interactive)
+            if (!finished || judgeAgain) dirty_ = true;
+            if (finished && !interactive && !judgeAgain)
                 push({{"type", "rest"}, {"view", view.id}, {"version", work.workbookVersion}});
             if (finished && interactive) {
                 wake_.wait_until(lock, lastChange_ + kRestAfter, [this] { return closed_ || dirty_; });
@@ -153,111 +160,17 @@ std::optional<std::string> StreamClient::next() {
     }
 }
 
-EncodeSettings StreamClient::encoding(bool interactive) const {
-    EncodeSettings settings;
-    settings.format = interactive ? ImageFormat::Jpeg : ImageFormat::Png;
-    settings.quality = 75;
-    settings.subsampleChroma = interactive;
-    settings.fast = true;
-    return settings;
-}
-
-void StreamClient::addTile(Plan& plan, const sheet::Workbook& workbook, const ClientView& view,
-                           const ViewTile& tile) const {
-    engine::TileQuality full;
-    full.sizePixels = tile.sizePixels;
-    auto prepared = engine_.prepareTile(workbook, sheet_, tile.cell, view.overrides, full);
-    const auto shown = shown_.find(tile.cell);
-    if (!prepared.spec) {
-        if (shown == shown_.end() || shown->second.state != cellState(prepared))
-            plan.notices.push_back(std::move(prepared));
-        return;
-    }
-    ++plan.visibleCells;
-    const auto volumes = engine::volumesOf(*prepared.spec, WantedPriority::Visible);
-    plan.shown.insert(plan.shown.end(), volumes.begin(), volumes.end());
-    if (shown != shown_.end() && shown->second.final && shown->second.identity == prepared.identity) {
-        ++plan.finalCells;
-        return;
-    }
-    plan.tiles.push_back({tile, std::move(prepared), nullptr, 0});
-}
-
-void StreamClient::addNeighbours(Plan& plan, const sheet::Workbook& workbook, const ClientView& view) const {
-    if (view.tiles.empty()) return;
-    sheet::Address low = view.tiles.front().cell;
-    sheet::Address high = low;
-    for (const auto& tile : view.tiles) {
-        low = {std::min(low.column, tile.cell.column), std::min(low.row, tile.cell.row)};
-        high = {std::max(high.column, tile.cell.column), std::max(high.row, tile.cell.row)};
-    }
-    std::size_t added = 0;
-    for (const auto& [cell, content] : sheet::sheetNamed(workbook, sheet_).cells) {
-        const bool inside = cell.column >= low.column && cell.column <= high.column && cell.row >= low.row &&
-                            cell.row <= high.row;
-        const bool near = cell.column >= low.column - 1 && cell.column <= high.column + 1 &&
-                          cell.row >= low.row - 1 && cell.row <= high.row + 1;
-        if (inside || !near || content.source.empty()) continue;
-        const auto prepared = engine_.prepareTile(workbook, sheet_, cell, view.overrides, {});
-        if (!prepared.spec) continue;
-        const auto volumes = engine::volumesOf(*prepared.spec, WantedPriority::Soon);
-        plan.shown.insert(plan.shown.end(), volumes.begin(), volumes.end());
-        if (++added == kMostNeighbours) return;
-    }
-}
-
-StreamClient::Plan StreamClient::plan(const ClientView& view, bool interactive) {
-    Plan plan;
-    plan.interactive = interactive;
-    const auto workbook = engine_.snapshot();
-    plan.workbookVersion = workbook->version;
-    for (const auto& tile : view.tiles)
-        addTile(plan, *workbook, view, tile);
-    if (plan.shown != shownVolumes_) {
-        shownVolumes_ = plan.shown;
-        addNeighbours(plan, *workbook, view);
-        engine_.setShown(id_, std::move(plan.shown));
-    }
-    for (auto& pending : plan.tiles)
-        pending.image = tiles_.cached(encodedIdentity(pending.prepared.identity, encoding(false)));
-    for (const auto& pending : plan.tiles)
-        plan.pixels += static_cast<double>(pending.tile.sizePixels.x) * pending.tile.sizePixels.y;
-    if (!interactive) {
-        // As many final pictures as fit the chunk; at least one.
-        double pixels = 0.0;
-        std::size_t count = 0;
-        for (; count < plan.tiles.size(); ++count) {
-            const auto& size = plan.tiles[count].tile.sizePixels;
-            pixels += static_cast<double>(size.x) * size.y;
-            if (count > 0 && quality_.predictedMs(pixels, 0) > kFinalChunkMs) break;
-            plan.pixels = pixels;
-        }
-        plan.tiles.resize(count);
-        return plan;
-    }
-    plan.step = quality_.choose(plan.pixels);
-    engine::TileQuality reduced;
-    reduced.sampleDistanceFactor = kQualitySteps[plan.step].sampleDistanceFactor;
-    std::erase_if(plan.tiles, [&](Pending& pending) {
-        if (pending.image) return false; // the final picture is at hand: nothing is faster
-        reduced.sizePixels = scaled(pending.tile.sizePixels, kQualitySteps[plan.step].scale);
-        pending.prepared = engine_.prepareTile(*workbook, sheet_, pending.tile.cell, view.overrides, reduced);
-        const auto shown = shown_.find(pending.tile.cell);
-        return !pending.prepared.spec ||
-               (shown != shown_.end() && shown->second.identity == pending.prepared.identity);
-    });
-    return plan;
-}
-
-bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
-    std::vector<TileSpec> specs;
+bool StreamClient::draw(FramePlan& plan, std::uint64_t viewId) {
+    FrameSpec spec;
+    // A gesture never waits for a texture; a picture at rest is as fine as the budget allows.
+    spec.levels = plan.interactive ? LevelChoice::AtHand : LevelChoice::WithinBudget;
     std::vector<std::size_t> drawnBy;
     for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
         if (plan.tiles[i].image) continue;
-        specs.push_back(*plan.tiles[i].prepared.spec);
+        spec.tiles.push_back(*plan.tiles[i].prepared.spec);
         drawnBy.push_back(i);
     }
-    if (specs.empty()) return true;
+    if (spec.tiles.empty()) return true;
     const auto needless = [this, viewId, interactive = plan.interactive] {
         const std::lock_guard lock(mutex_);
         return closed_ || (!interactive && view_.id != viewId);
@@ -265,17 +178,14 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
     const auto start = Clock::now();
     FrameResult frame;
     try {
-        frame = engine_
-                    .render(specs, plan.interactive ? FramePriority::Interactive : FramePriority::Final,
-                            needless, PixelFormat::Rgba8,
-                            plan.interactive ? LevelChoice::AtHand : LevelChoice::WithinBudget)
-                    .get();
+        const auto priority = plan.interactive ? FramePriority::Interactive : FramePriority::Final;
+        frame = engine_.render(std::move(spec), priority, needless).get();
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Cancelled) throw;
         return false;
     }
-    const auto settings = encoding(plan.interactive);
-    tbb::parallel_for(std::size_t{0}, specs.size(), [&](std::size_t i) {
+    const auto settings = planner_.encoding(plan.interactive);
+    tbb::parallel_for(std::size_t{0}, drawnBy.size(), [&](std::size_t i) {
         auto& pending = plan.tiles[drawnBy[i]];
         const auto& pixels = frame.tiles[i];
         if (!pixels.error.empty()) {
@@ -298,18 +208,19 @@ bool StreamClient::draw(Plan& plan, std::uint64_t viewId) {
         pending.image = image;
     });
     double pixels = 0.0;
-    for (const auto index : drawnBy) {
-        const auto& pending = plan.tiles[index];
+    for (std::size_t i = 0; i < drawnBy.size(); ++i) {
+        const auto& pending = plan.tiles[drawnBy[i]];
         pixels += static_cast<double>(pending.tile.sizePixels.x) * pending.tile.sizePixels.y;
+        planner_.drawn(plan, pending, frame.tiles[i]);
         // A coarser level than its identity says is for this page alone.
         if (pending.image && pending.image->final && pending.image->note.empty())
             tiles_.remember(pending.image);
     }
-    quality_.measured(pixels, plan.step, milliseconds(Clock::now() - start));
+    planner_.frameDrawn(plan, pixels, milliseconds(Clock::now() - start));
     return true;
 }
 
-void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs) {
+void StreamClient::emit(const FramePlan& plan, const ClientView& view, double frameMs) {
     ++frame_;
     const std::size_t count = plan.notices.size() + plan.tiles.size();
     std::size_t index = 0;
@@ -329,7 +240,7 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         json["message"] = tile.message;
         json["progress"] = tile.progress;
         push(json);
-        shown_[tile.cell] = Shown{{}, cellState(tile), false};
+        planner_.stateSent(tile);
     };
     for (const auto& tile : plan.notices)
         notice(tile);
@@ -349,11 +260,10 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
         json["renderMs"] = image.renderMs;
         json["encodeMs"] = image.encodeMs;
         json["final"] = image.final;
+        if (const auto pinned = pending.prepared.needs.pinned) json["pinned"] = *pinned;
         if (!image.note.empty()) json["note"] = image.note;
         push(json, image.bytes);
-        // What stands in for a volume that is on its way is drawn again.
-        shown_[pending.tile.cell] =
-            Shown{image.awaited ? std::string{} : pending.prepared.identity, {}, image.final};
+        planner_.pictureSent(pending);
         ++timing.tiles;
         timing.level = std::max(timing.level, image.level);
     }
@@ -364,7 +274,7 @@ void StreamClient::emit(const Plan& plan, const ClientView& view, double frameMs
     if (timing.tiles > 0) lastFrame_ = timing;
 }
 
-void StreamClient::emitStatus(const Plan& plan, std::uint64_t viewId, double frameMs) {
+void StreamClient::emitStatus(const FramePlan& plan, std::uint64_t viewId, double frameMs) {
     std::size_t finalCells = plan.finalCells;
     int level = 0;
     for (const auto& pending : plan.tiles) {
@@ -379,6 +289,7 @@ void StreamClient::emitStatus(const Plan& plan, std::uint64_t viewId, double fra
           {"finalCells", finalCells},
           {"cells", plan.visibleCells},
           {"level", level},
+          {"policy", levelPolicyName(levels_.settings().policy)},
           {"residentBytes", residency.residentBytes},
           {"budgetBytes", residency.budgetBytes}});
 }

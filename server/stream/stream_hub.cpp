@@ -29,7 +29,9 @@ void add(StreamStatistics& sum, const StreamStatistics& part) {
 
 } // namespace
 
-StreamHub::StreamHub(engine::Engine& engine, TileService& tiles) : engine_(engine), tiles_(tiles) {
+StreamHub::StreamHub(engine::Engine& engine, TileService& tiles, const LevelSettings& levels)
+    : engine_(engine), tiles_(tiles), levelSettings_(levels) {
+    validateLevelSettings(levels);
     listener_ = engine_.addListener([this](engine::ChangeKind kind, std::uint64_t version) {
         const std::lock_guard lock(mutex_);
         for (const auto& [id, client] : clients_)
@@ -49,17 +51,19 @@ std::string StreamHub::open(const std::string& sheetName) {
     if (clients_.size() >= kMaxStreams)
         throw LimitExceeded("stream", "256 pages are connected already", "close some of them");
     const auto id = randomId();
-    clients_[id] = std::make_shared<StreamClient>(id, sheetName, engine_, tiles_);
+    clients_[id] = std::make_shared<StreamClient>(id, sheetName, engine_, tiles_, levelsOf(sheetName));
     return id;
 }
 
 void StreamHub::close(const std::string& id) {
-    const std::lock_guard lock(mutex_);
-    const auto found = clients_.find(id);
-    if (found == clients_.end()) return;
-    found->second->close();
-    add(closed_, found->second->statistics());
-    clients_.erase(found);
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = clients_.find(id);
+        if (found == clients_.end()) return;
+        found->second->close();
+        add(closed_, found->second->statistics());
+        clients_.erase(found);
+    }
 }
 
 std::shared_ptr<StreamClient> StreamHub::find(const std::string& id) const {
@@ -83,6 +87,39 @@ ClientView StreamHub::view(const std::string& id) const {
     const auto client = find(id);
     if (!client) throw NotFound("stream " + id, "it is closed", "open a new one");
     return client->view();
+}
+
+SheetLevels& StreamHub::levelsOf(const std::string& sheet) {
+    auto& levels = levels_[sheet];
+    if (!levels)
+        levels = std::make_unique<SheetLevels>(levelSettings_, [this, sheet] { levelsChanged(sheet); });
+    return *levels;
+}
+
+SheetLevels& StreamHub::levels(const std::string& sheet) {
+    static_cast<void>(sheet::sheetNamed(*engine_.snapshot(), sheet)); // throws NotFound
+    const std::lock_guard lock(mutex_);
+    return levelsOf(sheet);
+}
+
+void StreamHub::levelsChanged(const std::string& sheet) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, client] : clients_)
+        if (client->sheet() == sheet) client->levelsChanged();
+}
+
+std::optional<ClientView> StreamHub::newestView(const std::string& sheet) const {
+    const std::lock_guard lock(mutex_);
+    std::optional<ClientView> newest;
+    std::chrono::steady_clock::time_point when;
+    for (const auto& [id, client] : clients_) {
+        if (client->sheet() != sheet || !client->hasView()) continue;
+        const auto changed = client->lastChange();
+        if (newest && changed <= when) continue;
+        newest = client->view();
+        when = changed;
+    }
+    return newest;
 }
 
 void StreamHub::stop() {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/engine.h"
+#include "stream/sheet_levels.h"
 #include "stream/tile_service.h"
 
 #include <chrono>
@@ -62,7 +63,8 @@ class StreamClient;
 /// that stream happen inside next(), so a client that reads slowly delays only itself.
 class StreamHub {
 public:
-    StreamHub(engine::Engine& engine, TileService& tiles);
+    /// \param levels  of every sheet until it is given other ones
+    StreamHub(engine::Engine& engine, TileService& tiles, const LevelSettings& levels = {});
     ~StreamHub();
     StreamHub(const StreamHub&) = delete;
     StreamHub& operator=(const StreamHub&) = delete;
@@ -83,9 +85,16 @@ public:
     [[nodiscard]] StreamStatistics statistics() const;
     /// Of the open streams of this sheet; nothing before the first frame.
     [[nodiscard]] std::optional<FrameTiming> lastFrame(const std::string& sheet) const;
+    /// Levels of detail of a sheet; made at the first call. Throws NotFound if the sheet does not exist.
+    [[nodiscard]] SheetLevels& levels(const std::string& sheet);
+    /// The newest view of the sheet among its pages; nothing before a page has sent one.
+    [[nodiscard]] std::optional<ClientView> newestView(const std::string& sheet) const;
 
 private:
     [[nodiscard]] std::shared_ptr<StreamClient> find(const std::string& id) const;
+    /// Called with the lock held.
+    [[nodiscard]] SheetLevels& levelsOf(const std::string& sheet);
+    void levelsChanged(const std::string& sheet);
 
     engine::Engine& engine_;
     TileService& tiles_;
@@ -93,6 +102,8 @@ private:
     mutable std::mutex mutex_;
     bool stopping_ = false;
     StreamStatistics closed_; ///< sums over streams that are gone
+    LevelSettings levelSettings_;
+    std::unordered_map<std::string, std::unique_ptr<SheetLevels>> levels_; ///< by sheet
     std::unordered_map<std::string, std::shared_ptr<StreamClient>> clients_;
 };
 

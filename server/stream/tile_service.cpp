@@ -77,7 +77,7 @@ std::shared_ptr<const EncodedImage> TileService::cellImage(const CellImageReques
         }
     };
     const Done done{*this, identity};
-    auto frame = engine_.render({spec}, FramePriority::Final, cancelled).get();
+    auto frame = engine_.render({.tiles = {spec}}, FramePriority::Final, cancelled).get();
     auto& pixels = frame.tiles.at(0);
     if (!pixels.error.empty()) {
         const auto cell = "cell " + sheet::addressName(tile.cell);
@@ -108,6 +108,7 @@ std::shared_ptr<const EncodedImage> TileService::sheetImage(const engine::SheetI
     image->identity = encodedIdentity(drawn.identity, encoding);
     image->format = encoding.format;
     image->size = drawn.pixels.size;
+    image->level = drawn.pixels.level;
     image->renderMs = drawn.pixels.renderMs;
     image->final = drawn.final;
     return image;

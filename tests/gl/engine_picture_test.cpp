@@ -179,7 +179,7 @@ TEST_F(EnginePicture, PickingMeetsWhatThePictureShows) {
             quality.sizePixels = {200, 200};
             const PreparedTile tile = engine->prepareTile(*engine->snapshot(), "", {0, 0}, view, quality);
             ASSERT_TRUE(tile.spec) << tile.message;
-            const FrameResult frame = engine->render({*tile.spec}, FramePriority::Final).get();
+            const FrameResult frame = engine->render({.tiles = {*tile.spec}}, FramePriority::Final).get();
             ASSERT_EQ(frame.tiles.at(0).error, "");
             Agreement agreement;
             for (int y = 2; y < 200; y += 4) {

@@ -43,6 +43,7 @@ void addStyleRoutes(Router& router, const ApiContext& context);
 void addCellRoutes(Router& router, const ApiContext& context);
 void addImageRoutes(Router& router, const ApiContext& context);
 void addProbeRoutes(Router& router, const ApiContext& context);
+void addTimingRoutes(Router& router, const ApiContext& context);
 void addStreamRoutes(Router& router, const ApiContext& context);
 void addMjpegRoute(Router& router, const ApiContext& context);
 void addMetricsRoute(Router& router, const ApiContext& context);

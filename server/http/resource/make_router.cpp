@@ -27,6 +27,7 @@ Router makeRouter(const ApiContext& context) {
     addCellRoutes(router, context);
     addImageRoutes(router, context);
     addProbeRoutes(router, context);
+    addTimingRoutes(router, context);
     addStreamRoutes(router, context);
     addMjpegRoute(router, context);
     addMetricsRoute(router, context);

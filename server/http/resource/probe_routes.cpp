@@ -82,29 +82,6 @@ Response colourBar(const ApiContext& context, const Request& request) {
     return jsonAnswer(context.engine.colourBar(sheet, cell, viewOf(context, request, {"stream"})));
 }
 
-Response timings(const ApiContext& context, const Request& request) {
-    const auto workbook = context.engine.snapshot();
-    const auto sheet = sheet::sheetNamed(*workbook, request.param("sheet")).name;
-    const auto statuses = context.engine.cellStatuses(*workbook, sheet);
-    const auto shown = std::count_if(statuses.begin(), statuses.end(), [](const engine::CellStatus& status) {
-        return status.state == engine::CellState::Ready;
-    });
-    const auto residency = context.engine.residency();
-    const auto streams = context.hub.statistics();
-    const auto last = context.hub.lastFrame(sheet); // null before a page has drawn something
-    return jsonAnswer(nlohmann::json{{"n", shown},
-                                     {"frame_ms", last ? nlohmann::json(last->frameMs) : nlohmann::json()},
-                                     {"frame_tiles", last ? nlohmann::json(last->tiles) : nlohmann::json()},
-                                     {"level", last ? nlohmann::json(last->level) : nlohmann::json()},
-                                     {"r", nullptr},
-                                     {"resident_bytes", residency.residentBytes},
-                                     {"budget_bytes", residency.budgetBytes},
-                                     {"uploaded_bytes", residency.uploadedBytes},
-                                     {"evictions", residency.evictions},
-                                     {"frames", streams.frames},
-                                     {"points", nlohmann::json::array()}});
-}
-
 } // namespace
 
 void addProbeRoutes(Router& router, const ApiContext& context) {
@@ -138,11 +115,6 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                 .answerDoc =
                     "{stops, low, high, scale, unit, quantity, shared, ticks, isovalues: [{value, position, "
                     "colour, opacity}], colouredBy}"});
-    router.add({.method = "GET",
-                .pattern = "/api/v1/sheets/{sheet}/timings",
-                .handler = [&context](Request& request) { return timings(context, request); },
-                .summary = "The dynamic-resolution state: N, T_N, R, level of detail, resident bytes",
-                .answerDoc = "{n, frame_ms, level, r, resident_bytes, budget_bytes, points}"});
 }
 
 } // namespace voxsheet::http

@@ -1,0 +1,251 @@
+#include "resolution/level_policy.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace voxsheet {
+
+namespace {
+
+constexpr double kFocusWeight = 16.0;
+
+struct NamedPolicy {
+    LevelPolicy policy;
+    const char* name;
+    ResolutionCriterion criterion;
+};
+
+constexpr std::array<NamedPolicy, 8> kPolicies{{
+    {LevelPolicy::Off, "off", ResolutionCriterion::Off},
+    {LevelPolicy::Focus, "focus", ResolutionCriterion::Off},
+    {LevelPolicy::Slope, "slope", ResolutionCriterion::Slope},
+    {LevelPolicy::SlopeFirst, "slope-first", ResolutionCriterion::SlopeFirst},
+    {LevelPolicy::Time, "time", ResolutionCriterion::Time},
+    {LevelPolicy::Rate, "rate", ResolutionCriterion::Rate},
+    {LevelPolicy::Count, "count", ResolutionCriterion::Count},
+    {LevelPolicy::Bytes, "bytes", ResolutionCriterion::Bytes},
+}};
+
+const NamedPolicy& rowOf(LevelPolicy policy) { return kPolicies.at(static_cast<std::size_t>(policy)); }
+
+/// In octaves of texel size, of which those below a pixel do not count.
+double gainOfLevel(const CellDemand& cell, int level) {
+    const auto blurOctaves = [&](int at) {
+        return std::max(0.0, std::log2(std::ldexp(cell.texelEdgePixels, at)));
+    };
+    // An eye inside the volume sees texels without end: each level counts as an octave.
+    const double octaves =
+        std::isfinite(cell.texelEdgePixels) ? blurOctaves(level + 1) - blurOctaves(level) : 1.0;
+    return cell.pixels * octaves * (cell.focused ? kFocusWeight : 1.0);
+}
+
+bool movable(const CellDemand& cell, int level) { return !cell.pinned && level + 1 < cell.levels(); }
+
+/// Lowering the finest cells of one volume together: only then does a texture go.
+struct LoweringStep {
+    std::vector<std::size_t> members; ///< all cells that show the volume
+    std::vector<std::size_t> lowered; ///< empty: nothing is left to lower
+    double ms = 0.0;                  ///< given back
+    double bytes = 0.0;               ///< given back; negative where the coarser texture comes on top
+    double gain = 0.0;                ///< of the pictures, lost
+};
+
+class Lowering {
+public:
+    Lowering(std::span<const CellDemand> cells, const SheetBudget& budget, std::vector<int> levels)
+        : cells_(cells), budget_(budget), levels_(std::move(levels)) {
+        const SheetCost cost = sheetCost(cells, levels_);
+        ms_ = cost.ms;
+        bytes_ = static_cast<double>(cost.textureBytes);
+        std::map<std::string_view, std::size_t> known;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const auto [place, isNew] = known.emplace(cells[i].volume, steps_.size());
+            if (isNew) steps_.emplace_back();
+            steps_[place->second].members.push_back(i);
+        }
+        for (LoweringStep& step : steps_)
+            prepare(step);
+    }
+
+    std::vector<int> run() {
+        while (overTime() || overBytes()) {
+            LoweringStep* step = cheapest();
+            if (step == nullptr) break;
+            for (const std::size_t i : step->lowered)
+                ++levels_[i];
+            ms_ -= step->ms;
+            bytes_ -= step->bytes;
+            prepare(*step);
+        }
+        return std::move(levels_);
+    }
+
+private:
+    bool overTime() const { return ms_ > budget_.frameMs; }
+    bool overBytes() const { return bytes_ > static_cast<double>(budget_.textureBytes); }
+
+    void prepare(LoweringStep& step) const {
+        step.lowered.clear();
+        int level = std::numeric_limits<int>::max();
+        for (const std::size_t i : step.members) {
+            if (!movable(cells_[i], levels_[i]) || levels_[i] > level) continue;
+            if (levels_[i] < level) step.lowered.clear();
+            level = levels_[i];
+            step.lowered.push_back(i);
+        }
+        step.ms = step.gain = step.bytes = 0.0;
+        if (step.lowered.empty()) return;
+        const auto at = static_cast<std::size_t>(level);
+        for (const std::size_t i : step.lowered) {
+            if (!cells_[i].ms.empty()) step.ms += cells_[i].ms[at] - cells_[i].ms[at + 1];
+            step.gain += gainOfLevel(cells_[i], level);
+        }
+        const auto showing = [&](int which) {
+            return std::count_if(step.members.begin(), step.members.end(),
+                                 [&](std::size_t i) { return levels_[i] == which; });
+        };
+        const auto& sizes = cells_[step.lowered.front()].textureBytes;
+        if (showing(level) == static_cast<std::ptrdiff_t>(step.lowered.size()))
+            step.bytes += static_cast<double>(sizes[at]);
+        if (showing(level + 1) == 0) step.bytes -= static_cast<double>(sizes[at + 1]);
+    }
+
+    /// Of the exceeded budgets; 0 when the step does not help.
+    double sharesGivenBack(const LoweringStep& step) const {
+        double shares = 0.0;
+        if (overTime()) shares += std::max(0.0, step.ms) / budget_.frameMs;
+        if (overBytes())
+            shares += std::max(0.0, step.bytes) / std::max(1.0, static_cast<double>(budget_.textureBytes));
+        return shares;
+    }
+
+    LoweringStep* cheapest() {
+        LoweringStep* best = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        for (LoweringStep& step : steps_) {
+            const double shares = step.lowered.empty() ? 0.0 : sharesGivenBack(step);
+            if (shares <= 0.0 || step.gain / shares >= least) continue;
+            least = step.gain / shares;
+            best = &step;
+        }
+        return best;
+    }
+
+    std::span<const CellDemand> cells_;
+    SheetBudget budget_;
+    std::vector<int> levels_;
+    double ms_ = 0.0;
+    double bytes_ = 0.0;
+    std::vector<LoweringStep> steps_; ///< one per volume
+};
+
+void positive(double value, const char* field, const char* what) {
+    if (std::isfinite(value) && value > 0.0) return;
+    throw InvalidInput(what, "it must be a number above 0", "give one, or leave it out").withField(field);
+}
+
+} // namespace
+
+const char* levelPolicyName(LevelPolicy policy) { return rowOf(policy).name; }
+
+LevelPolicy levelPolicyFromName(std::string_view name) {
+    for (const auto& row : kPolicies)
+        if (row.name == name) return row.policy;
+    std::string known;
+    for (const auto& row : kPolicies)
+        known += (known.empty() ? "" : ", ") + std::string(row.name);
+    throw InvalidInput("policy of levels of detail", "there is no `" + std::string(name) + "`",
+                       "choose one of " + known)
+        .withField("policy");
+}
+
+std::vector<std::string> levelPolicyNames() {
+    std::vector<std::string> names;
+    for (const auto& row : kPolicies)
+        names.emplace_back(row.name);
+    return names;
+}
+
+void validateLevelSettings(const LevelSettings& settings) {
+    positive(settings.frameMs, "frame_ms", "longest time of a frame");
+    positive(settings.framesPerSecond, "frames_per_second", "fewest frames per second");
+    positive(settings.datasets, "datasets", "number of datasets");
+    positive(static_cast<double>(settings.bytes), "bytes", "number of bytes");
+    positive(settings.upFraction, "up_fraction", "share for going back to a finer level");
+    if (settings.upFraction > 1.0)
+        throw InvalidInput("share for going back to a finer level", "it must be at most 1", "give 0.8")
+            .withField("up_fraction");
+}
+
+ResolutionRule ruleOf(const LevelSettings& settings) {
+    ResolutionRule rule;
+    rule.criterion = rowOf(settings.policy).criterion;
+    rule.frameMs = settings.frameMs;
+    rule.framesPerSecond = settings.framesPerSecond;
+    rule.datasets = settings.datasets;
+    rule.bytes = settings.bytes;
+    rule.upFraction = settings.upFraction;
+    return rule;
+}
+
+int footprintLevel(double texelEdgePixels, int levels) {
+    int level = 0;
+    while (level + 1 < levels && std::ldexp(texelEdgePixels, level + 1) <= 1.0)
+        ++level;
+    return level;
+}
+
+std::vector<int> focusLevels(std::span<const CellDemand> cells, const SheetBudget& budget) {
+    std::vector<int> levels;
+    for (const CellDemand& cell : cells) {
+        const int coarsest = cell.levels() - 1;
+        const int wanted =
+            cell.pinned.value_or(std::max(footprintLevel(cell.texelEdgePixels, cell.levels()), cell.finest));
+        levels.push_back(std::clamp(wanted, 0, coarsest));
+    }
+    return Lowering(cells, budget, std::move(levels)).run();
+}
+
+std::vector<int> steadyFocusLevels(std::span<const CellDemand> cells,
+                                   std::span<const std::optional<int>> previous, const SheetBudget& budget,
+                                   double upFraction) {
+    std::vector<int> levels = focusLevels(cells, budget);
+    const SheetBudget tight{
+        budget.frameMs * upFraction,
+        static_cast<std::uint64_t>(static_cast<double>(budget.textureBytes) * upFraction)};
+    const std::vector<int> tightLevels = focusLevels(cells, tight);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (!previous[i] || cells[i].pinned) continue;
+        levels[i] = std::clamp(*previous[i], levels[i], std::max(levels[i], tightLevels[i]));
+    }
+    return levels;
+}
+
+std::vector<int> commonLevels(std::span<const CellDemand> cells, int level) {
+    std::vector<int> levels;
+    for (const CellDemand& cell : cells)
+        levels.push_back(
+            std::clamp(cell.pinned.value_or(std::max(level, cell.finest)), 0, cell.levels() - 1));
+    return levels;
+}
+
+SheetCost sheetCost(std::span<const CellDemand> cells, std::span<const int> levels) {
+    SheetCost cost;
+    std::set<std::pair<std::string_view, int>> textures;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const auto level = static_cast<std::size_t>(levels[i]);
+        if (!cells[i].ms.empty()) cost.ms += cells[i].ms[level];
+        if (textures.emplace(cells[i].volume, levels[i]).second)
+            cost.textureBytes += cells[i].textureBytes[level];
+    }
+    return cost;
+}
+
+} // namespace voxsheet

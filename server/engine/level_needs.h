@@ -1,0 +1,33 @@
+// What choosing a cell's level of detail needs to know about its picture.
+#pragma once
+
+#include "sheet/typed_style.h"
+#include "stages/tile_spec.h"
+#include "volume/dataset.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxsheet::engine {
+
+struct LevelNeeds {
+    std::string volume; ///< dataset, field and step, and how they are kept: cells with equal ones share
+                        ///< textures
+    std::string work;   ///< technique and what else changes the time of a picture per pixel
+    double texelEdgePixels = 1.0;            ///< CellDemand::texelEdgePixels
+    std::vector<std::uint64_t> textureBytes; ///< per level; its size is the number of levels
+    int finest = 0;                          ///< what the style's `quality` allows
+    std::optional<int> pinned;               ///< the style's `level`
+};
+
+/// The longest edge of a level-0 voxel in pixels, at the depth of the corner of the drawn box that is nearest
+/// to the eye, whichever way the edge points. Infinite when that corner is beside or behind the eye.
+[[nodiscard]] double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 sizePixels);
+
+/// \param exactR8Filtering  chooseTextureEncoding
+[[nodiscard]] LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta,
+                                    const sheet::TypedStyle& style, bool exactR8Filtering);
+
+} // namespace voxsheet::engine

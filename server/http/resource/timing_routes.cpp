@@ -1,0 +1,219 @@
+#include "base/errors.h"
+#include "http/resource/api_context.h"
+#include "http/resource/stream_update.h"
+#include "http/route/json_answer.h"
+#include "stream/time_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxsheet::http {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kBodyBytes = 4096;
+
+json numberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json pointJson(const stream::TimingPoint& point) {
+    json out{{"n", point.n},
+             {"level", point.level},
+             {"ms", point.ms.value},
+             {"ms_low", point.ms.low},
+             {"ms_high", point.ms.high},
+             {"coverage", point.ms.coverage},
+             {"frames", point.ms.count},
+             {"resident_bytes", point.residentBytes},
+             {"r_raw", point.rawRatio ? numberOrNull(*point.rawRatio) : json(nullptr)},
+             {"r", nullptr},
+             {"r_low", nullptr},
+             {"r_high", nullptr}};
+    if (point.ratio) {
+        out["r"] = numberOrNull(point.ratio->value);
+        out["r_low"] = numberOrNull(point.ratio->low);
+        out["r_high"] = numberOrNull(point.ratio->high);
+    }
+    return out;
+}
+
+json settingsJson(const LevelSettings& settings) {
+    return {{"policy", levelPolicyName(settings.policy)},
+            {"frame_ms", settings.frameMs},
+            {"frames_per_second", settings.framesPerSecond},
+            {"datasets", settings.datasets},
+            {"bytes", settings.bytes},
+            {"up_fraction", settings.upFraction},
+            {"policies", levelPolicyNames()}};
+}
+
+double numberMember(const json& body, const char* name, double fallback) {
+    const auto found = body.find(name);
+    if (found == body.end()) return fallback;
+    if (!found->is_number())
+        throw InvalidInput("member '" + std::string(name) + "'", "it must be a number").withField(name);
+    return found->get<double>();
+}
+
+LevelSettings settingsFromJson(const json& body, LevelSettings settings) {
+    allowMembers(body, {"policy", "frame_ms", "frames_per_second", "datasets", "bytes", "up_fraction"});
+    if (body.contains("policy")) settings.policy = levelPolicyFromName(requireString(body, "policy"));
+    settings.frameMs = numberMember(body, "frame_ms", settings.frameMs);
+    settings.framesPerSecond = numberMember(body, "frames_per_second", settings.framesPerSecond);
+    if (body.contains("datasets"))
+        settings.datasets = static_cast<int>(integerIn(body, "datasets", 1, sheet::kMaxCells));
+    if (body.contains("bytes"))
+        settings.bytes = static_cast<std::uint64_t>(integerIn(body, "bytes", 1, std::int64_t{1} << 60));
+    settings.upFraction = numberMember(body, "up_fraction", settings.upFraction);
+    return settings;
+}
+
+std::string sheetName(const ApiContext& context, const Request& request) {
+    return sheet::sheetNamed(*context.engine.snapshot(), request.param("sheet")).name;
+}
+
+json cellsJson(const std::vector<stream::CellLevel>& cells) {
+    json out = json::array();
+    for (const stream::CellLevel& cell : cells)
+        out.push_back({{"cell", sheet::addressName(cell.cell)},
+                       {"level", cell.level},
+                       {"footprint", cell.footprint},
+                       {"pinned", cell.pinned}});
+    return out;
+}
+
+json timingsJson(const ApiContext& context, const std::string& sheet) {
+    const auto statuses = context.engine.cellStatuses(*context.engine.snapshot(), sheet);
+    const auto ready = std::count_if(statuses.begin(), statuses.end(), [](const engine::CellStatus& status) {
+        return status.state == engine::CellState::Ready;
+    });
+    const auto timings = context.hub.levels(sheet).timings();
+    const auto residency = context.engine.residency();
+    const auto host = context.engine.hostCache();
+    const auto last = context.hub.lastFrame(sheet); // null before a page has drawn something
+    json points = json::array();
+    for (const stream::TimingPoint& point : timings.points)
+        points.push_back(pointJson(point));
+    const json now = timings.now ? pointJson(*timings.now) : json::object();
+    const auto ofNow = [&](const char* name) { return now.value(name, json(nullptr)); };
+    return {{"n", ready},
+            {"shown", timings.n},
+            {"t_n", ofNow("ms")},
+            {"t_n_low", ofNow("ms_low")},
+            {"t_n_high", ofNow("ms_high")},
+            {"r_raw", ofNow("r_raw")},
+            {"r", ofNow("r")},
+            {"r_low", ofNow("r_low")},
+            {"r_high", ofNow("r_high")},
+            {"tile", {256, 256}},
+            {"level", timings.level},
+            {"levels", cellsJson(timings.cells)},
+            {"policy", levelPolicyName(timings.settings.policy)},
+            {"settings", settingsJson(timings.settings)},
+            {"reason", timings.reason},
+            {"frame_ms", last ? json(last->frameMs) : json()},
+            {"frame_tiles", last ? json(last->tiles) : json()},
+            {"resident_bytes", residency.residentBytes},
+            {"budget_bytes", residency.budgetBytes},
+            {"visible_bytes", residency.visibleBytes},
+            {"queued_bytes", residency.queuedBytes},
+            {"uploaded_bytes", residency.uploadedBytes},
+            {"uploads", residency.uploads},
+            {"upload_ms", residency.uploadMs},
+            {"read_ms", residency.readMs},
+            {"evictions", residency.evictions},
+            {"memory_budget_bytes", context.engine.options().memoryBudgetBytes},
+            {"host_bytes", host.bytes},
+            {"host_evictions", host.evictions},
+            {"disk_bytes", host.diskBytes},
+            {"disk_ms", host.diskMs},
+            {"frames", context.hub.statistics().frames},
+            {"points", points}};
+}
+
+/// What no page shows is measured as a sheet of equal tiles.
+stream::ClientView viewToMeasure(const ApiContext& context, const std::string& name) {
+    if (auto view = context.hub.newestView(name)) return *view;
+    const auto workbook = context.engine.snapshot();
+    const auto& sheet = sheet::sheetNamed(*workbook, name);
+    return wholeSheetView(sheet, glm::dvec2(sheet.columns, sheet.rows) * 256.0);
+}
+
+Response measure(const ApiContext& context, const Request& request) {
+    const auto sheet = sheetName(context, request);
+    const auto body = request.body.empty() ? json::object() : jsonBody(request);
+    allowMembers(body, {"repeats", "curve", "seconds"});
+    stream::MeasureRequest wanted;
+    if (body.contains("repeats")) wanted.repeats = static_cast<int>(integerIn(body, "repeats", 3, 25));
+    wanted.curve = booleanOr(body, "curve", wanted.curve);
+    wanted.seconds = numberMember(body, "seconds", wanted.seconds);
+    const auto result =
+        stream::measureTimeN(context.engine, context.hub.levels(sheet), sheet, viewToMeasure(context, sheet),
+                             wanted, [gone = request.gone] { return gone->load(); });
+    auto answer = timingsJson(context, sheet);
+    answer["measured"] = {{"n", result.n},
+                          {"frames", result.frames},
+                          {"stopped_early", result.stoppedEarly},
+                          {"warning", result.warning.empty() ? json(nullptr) : json(result.warning)}};
+    return jsonAnswer(answer);
+}
+
+Response patchSettings(const ApiContext& context, const Request& request) {
+    auto& levels = context.hub.levels(sheetName(context, request));
+    levels.setSettings(settingsFromJson(jsonBody(request), levels.settings()));
+    return jsonAnswer(settingsJson(levels.settings()));
+}
+
+} // namespace
+
+void addTimingRoutes(Router& router, const ApiContext& context) {
+    router.add(
+        {.method = "GET",
+         .pattern = "/api/v1/sheets/{sheet}/timings",
+         .handler =
+             [&context](Request& request) {
+                 return jsonAnswer(timingsJson(context, sheetName(context, request)));
+             },
+         .summary = "The dynamic-resolution state: N, T_N, R, levels of detail, resident bytes. T_N "
+                    "comes from redraws of all cells on show that happened anyway",
+         .answerDoc =
+             "{n, shown, t_n, t_n_low, t_n_high, r_raw, r, r_low, r_high, tile, level, levels: [{cell, "
+             "level, footprint, pinned}], policy, settings, reason, frame_ms, resident_bytes, "
+             "budget_bytes, …, points: [{n, level, ms, ms_low, ms_high, coverage, frames, r_raw, r, "
+             "r_low, r_high, resident_bytes}]}; times in ms with every tile of `tile` pixels"});
+    router.add({.method = "POST",
+                .pattern = "/api/v1/sheets/{sheet}/timings",
+                .handler = [&context](Request& request) { return measure(context, request); },
+                .summary = "Measures T_N now: draws the cells on show (without a page: all) some times over, "
+                           "and the first few of them, behind everything that pages ask for",
+                .bodyType = "application/json",
+                .bodyDoc = "{repeats?: 3 to 25, curve?: true, seconds?: 30}",
+                .bodyBudgetBytes = kBodyBytes,
+                .pool = Pool::Render,
+                .answerDoc = "as GET, and measured: {n, frames, stopped_early, warning}"});
+    router.add({.method = "GET",
+                .pattern = "/api/v1/sheets/{sheet}/resolution",
+                .handler =
+                    [&context](Request& request) {
+                        return jsonAnswer(
+                            settingsJson(context.hub.levels(sheetName(context, request)).settings()));
+                    },
+                .summary = "How the levels of detail of this sheet's cells are chosen",
+                .answerDoc =
+                    "{policy, frame_ms, frames_per_second, datasets, bytes, up_fraction, policies: [name]}"});
+    router.add(
+        {.method = "PATCH",
+         .pattern = "/api/v1/sheets/{sheet}/resolution",
+         .handler = [&context](Request& request) { return patchSettings(context, request); },
+         .summary = "Chooses the policy of levels of detail, and its limits, while running; not a part "
+                    "of the workbook",
+         .bodyType = "application/json",
+         .bodyDoc = "{policy?: \"off\" | \"focus\" | \"slope\" | \"slope-first\" | \"time\" | \"rate\" | "
+                    "\"count\" | \"bytes\", frame_ms?, frames_per_second?, datasets?, bytes?, "
+                    "up_fraction?}",
+         .bodyBudgetBytes = kBodyBytes,
+         .answerDoc = "as GET"});
+}
+
+} // namespace voxsheet::http
