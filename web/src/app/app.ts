@@ -15,6 +15,7 @@ import { ViewSender, type ViewBody } from "../stream/view_sender";
 import { CellActions } from "./cell_actions";
 import { ClipActions } from "./clip_actions";
 import { DatasetActions } from "./dataset_actions";
+import { LevelActions } from "./level_actions";
 import { Notices } from "./notices";
 import { ServerSync } from "./server_sync";
 import { StyleActions } from "./style_actions";
@@ -25,12 +26,13 @@ import { ViewActions } from "./view_actions";
 export class App {
     readonly store: AppStore = newAppStore();
     readonly notices = new Notices(this.store);
-    readonly sync = new ServerSync(this.store);
+    readonly sync = new ServerSync(this.store, () => this.sizes.visibleTiles("").map((tile) => tile.cell));
     readonly styles = new StyleActions(this.store, this.sync, this.notices);
     readonly cells = new CellActions(this.store, this.sync, this.notices);
     readonly datasets = new DatasetActions(this.store, this.sync, this.notices);
     readonly view = new ViewActions(this.store, this.sync, this.notices);
     readonly clips = new ClipActions(this.store, this.styles, this.view, this.notices);
+    readonly levels = new LevelActions(this.store, this.styles, this.notices);
     readonly keyEdits = new KeyEdits(this.styles, this.view);
 
     readonly painter = new TilePainter({
@@ -50,7 +52,10 @@ export class App {
     /** The sheet that the stream was opened for. */
     private streamed = "";
 
-    readonly sizes = new TileSizes(() => this.sender.touch());
+    readonly sizes = new TileSizes(() => {
+        this.sender.touch();
+        this.sync.tilesShown();
+    });
 
     readonly client: StreamClient = new StreamClient({
         url: () => {
@@ -158,6 +163,7 @@ export class App {
                 this.store.dispatch({ type: "connection/status", status: header as unknown as StreamStatus });
                 break;
             case "rest":
+                this.levels.rested();
                 this.painter.whenPainted(() =>
                     this.store.dispatch({ type: "connection/rest", rest: header as unknown as StreamRest }),
                 );
@@ -191,13 +197,14 @@ export class App {
     }
 
     private viewBody(): ViewBody {
-        const { page, book } = this.store.get();
+        const { page, book, levels } = this.store.get();
         const sheet = currentSheet(book);
         const { style, cells } = viewOverrides(page.look, sheet, page.live);
         return {
             moving: page.moving || Object.keys(page.live).length > 0,
             tiles: this.sizes.visibleTiles(formatAddress(page.selection.active)),
-            focus: page.enlarged,
+            // What is looked at keeps its full resolution longest.
+            focus: page.enlarged ?? levels.hovered ?? formatAddress(page.selection.active),
             style,
             cells,
         };

@@ -89,6 +89,7 @@ export class PictureController implements GestureHandlers {
 
     /** At most one probe under way, and ten a second: hovering must not compete with pictures. */
     hover(x: number, y: number): void {
+        this.app.levels.hover(this.cell);
         this.probeAt = { x, y };
         if (this.probeTimer !== undefined || this.app.store.get().page.moving) return;
         this.probeTimer = setTimeout(() => {
@@ -98,6 +99,7 @@ export class PictureController implements GestureHandlers {
     }
 
     left(): void {
+        this.app.levels.hover(null);
         clearTimeout(this.probeTimer);
         this.probeTimer = undefined;
         this.probing?.abort();

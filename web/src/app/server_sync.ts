@@ -5,6 +5,7 @@ import { getColourBar } from "../api/sheets";
 import { getState } from "../api/workbook";
 import type { ColourBarInfo, Dataset } from "../api/types";
 import type { AppStore } from "../state/app_state";
+import { formatAddress } from "../model/address";
 import { currentSheet } from "../state/book";
 import { Refresher } from "./refresher";
 
@@ -19,8 +20,14 @@ export class ServerSync {
     readonly book = new Refresher(() => this.quietly(() => this.loadBook()));
     readonly datasets = new Refresher(() => this.quietly(() => this.loadDatasets()));
     private readonly bars = new Refresher(() => this.quietly(() => this.loadBars()));
+    /** The bars that are there belong to an older workbook. */
+    private barsStale = true;
 
-    constructor(private readonly store: AppStore) {}
+    /** shownCells: the tiles on show; only theirs are asked for, so that a sheet of hundreds of cells costs no more. */
+    constructor(
+        private readonly store: AppStore,
+        private readonly shownCells: () => string[],
+    ) {}
 
     /** Throws ApiProblem. */
     async loadAbout(): Promise<void> {
@@ -32,6 +39,7 @@ export class ServerSync {
     async loadBook(): Promise<void> {
         const book = await getState();
         this.store.dispatch({ type: "book/loaded", book });
+        this.barsStale = true;
         void this.bars.request();
     }
 
@@ -43,11 +51,25 @@ export class ServerSync {
         if (statesOf(datasets) !== before && this.store.get().book.book) void this.book.request();
     }
 
+    /** Others came into view. */
+    tilesShown(): void {
+        if (this.missingBars().length > 0) void this.bars.request();
+    }
+
+    private missingBars(): string[] {
+        const { book, page } = this.store.get();
+        const sheet = currentSheet(book);
+        const wanted = new Set([...this.shownCells(), formatAddress(page.selection.active)]);
+        const ready = sheet?.cells.filter((cell) => cell.state === "ok" && wanted.has(cell.cell)) ?? [];
+        return ready.map((cell) => cell.cell).filter((cell) => this.barsStale || !book.bars[cell]);
+    }
+
     private async loadBars(): Promise<void> {
         const sheet = currentSheet(this.store.get().book);
         if (!sheet) return;
-        const waiting = sheet.cells.filter((cell) => cell.state === "ok").map((cell) => cell.cell);
-        const bars: Record<string, ColourBarInfo> = {};
+        const waiting = this.missingBars();
+        const bars: Record<string, ColourBarInfo> = this.barsStale ? {} : { ...this.store.get().book.bars };
+        this.barsStale = false;
         const worker = async (): Promise<void> => {
             for (let cell = waiting.shift(); cell !== undefined; cell = waiting.shift()) {
                 const bar = await getColourBar(sheet.name, cell).catch(() => null);

@@ -1,6 +1,7 @@
 // The whole state of the page, put together from its slices.
 import { noBook, reduceBook, type BookAction, type BookSlice } from "./book";
 import { noConnection, reduceConnection, type ConnectionAction, type ConnectionState } from "./connection";
+import { noLevels, reduceLevels, type LevelAction, type LevelSlice } from "./levels";
 import { newPage, reducePage, type PageAction, type PageSlice } from "./page";
 import { Store } from "./store";
 import { reduceTiles, type TileAction, type TileSlice } from "./tiles";
@@ -10,9 +11,10 @@ export interface AppState {
     book: BookSlice;
     tiles: TileSlice;
     page: PageSlice;
+    levels: LevelSlice;
 }
 
-export type AppAction = ConnectionAction | BookAction | TileAction | PageAction;
+export type AppAction = ConnectionAction | BookAction | TileAction | PageAction | LevelAction;
 export type AppStore = Store<AppState, AppAction>;
 
 export function reduceApp(state: AppState, action: AppAction): AppState {
@@ -28,6 +30,10 @@ export function reduceApp(state: AppState, action: AppAction): AppState {
         }
         case "tiles":
             return { ...state, tiles: reduceTiles(state.tiles, action as TileAction) };
+        case "levels": {
+            const levels = reduceLevels(state.levels, action as LevelAction);
+            return levels === state.levels ? state : { ...state, levels };
+        }
         default: {
             const page = reducePage(state.page, action as PageAction);
             return page === state.page ? state : { ...state, page };
@@ -37,7 +43,7 @@ export function reduceApp(state: AppState, action: AppAction): AppState {
 
 export function newAppStore(): AppStore {
     return new Store<AppState, AppAction>(
-        { connection: noConnection, book: noBook, tiles: {}, page: newPage },
+        { connection: noConnection, book: noBook, tiles: {}, page: newPage, levels: noLevels },
         reduceApp,
     );
 }

@@ -9,6 +9,7 @@ export interface StreamStatus {
     finalCells: number;
     cells: number;
     level: number;
+    policy: string;
     residentBytes: number;
     budgetBytes: number;
 }

@@ -6,6 +6,8 @@ export interface TileInfo {
     scale: number;
     final: boolean;
     renderMs: number;
+    /** Why a coarser level than asked for is as good as it gets; else empty. */
+    note: string;
     state: "ok" | "importing" | "error" | "empty";
     code: string;
     message: string;
@@ -20,6 +22,7 @@ export const newTile: TileInfo = {
     scale: 1,
     final: false,
     renderMs: 0,
+    note: "",
     state: "ok",
     code: "",
     message: "",

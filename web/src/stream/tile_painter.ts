@@ -120,6 +120,7 @@ export class TilePainter {
             scale: numberOf(header["scale"], 1),
             final: header["final"] === true,
             renderMs: numberOf(header["renderMs"]),
+            note: String(header["note"] ?? ""),
         };
         this.pending[cell] = info;
         this.statistics.add({

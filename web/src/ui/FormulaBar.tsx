@@ -127,12 +127,26 @@ export function FormulaBar() {
     );
 }
 
+/** A tile that was scrolled out of view comes into the page with the next frame: a selected one is always there. */
+function focusSoon(selector: string): void {
+    const focus = (): boolean => {
+        const element = document.querySelector<HTMLElement>(selector);
+        element?.focus();
+        return element !== null;
+    };
+    if (!focus()) requestAnimationFrame(focus);
+}
+
 export function focusTitle(cell: string): void {
-    document.querySelector<HTMLElement>(`[data-title-of="${cell}"]`)?.focus();
+    focusSoon(`[data-title-of="${cell}"]`);
 }
 
 export function focusPicture(cell: string): void {
-    document.querySelector<HTMLElement>(`[data-picture-of="${cell}"]`)?.focus();
+    focusSoon(`[data-picture-of="${cell}"]`);
+}
+
+export function focusHeading(name: string): void {
+    focusSoon(`[data-header="${name}"]`);
 }
 
 /** Starts editing; `text`: what the bar begins with instead of the cell's source. */

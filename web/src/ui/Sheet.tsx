@@ -1,12 +1,14 @@
 // The grid: column and row headers, tiles, and the enlarged tile over all of it.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { columnName, formatAddress, type Address } from "../model/address";
+import { columnName, formatAddress, parseAddress, type Address } from "../model/address";
+import { gridWindow, linesShown, sameWindow, type GridWindow } from "../model/grid_window";
 import { isSelected, moveSelection, selectColumn, selectRow, selectSheet, type Selection } from "../model/selection";
 import type { SheetState } from "../api/types";
 import { currentSheet } from "../state/book";
 import { useApp, useSelect } from "./app_context";
 import { SharedColourBar } from "./ColourBar";
-import { focusTitle, insertReference } from "./FormulaBar";
+import { focusHeading, focusTitle, insertReference } from "./FormulaBar";
+import { LevelsPanel } from "./levels/LevelsPanel";
 import { SheetTabs } from "./SheetTabs";
 import { Tile } from "./Tile";
 
@@ -22,7 +24,7 @@ function modifiersOf(event: MouseEvent): { extend: boolean; toggle: boolean } {
 function focusHeader(selection: Selection): void {
     const name =
         selection.kind === "columns" ? columnName(selection.active.column) : String(selection.active.row + 1);
-    document.querySelector<HTMLElement>(`[data-header="${name}"]`)?.focus();
+    focusHeading(name);
 }
 
 /** Arrow keys on titles and headers move the selection; the focus goes along. */
@@ -56,7 +58,13 @@ function ColumnHeader({ column, sheet }: { column: number; sheet: SheetState }) 
     });
     const cells = sheet.cells.filter((cell) => cell.cell.replace(/[0-9]+$/, "") === name).map((cell) => cell.cell);
     return (
-        <div class={`column-header ${selected ? "selected" : ""}`} role="columnheader" aria-selected={selected}>
+        <div
+            class={`column-header ${selected ? "selected" : ""}`}
+            role="columnheader"
+            aria-selected={selected}
+            aria-colindex={column + 1}
+            style={{ gridColumn: column + 2, gridRow: 1 }}
+        >
             <button
                 type="button"
                 data-header={name}
@@ -82,7 +90,12 @@ function RowHeader({ row, title }: { row: number; title: string | undefined }) {
         return selection.kind === "sheet" || (selection.kind === "rows" && isSelected(selection, { column: 0, row }));
     });
     return (
-        <div class={`row-header ${selected ? "selected" : ""}`} role="rowheader" aria-selected={selected}>
+        <div
+            class={`row-header ${selected ? "selected" : ""}`}
+            role="rowheader"
+            aria-selected={selected}
+            style={{ gridColumn: 1, gridRow: row + 2 }}
+        >
             <button
                 type="button"
                 data-header={String(row + 1)}
@@ -100,6 +113,13 @@ function RowHeader({ row, title }: { row: number; title: string | undefined }) {
     );
 }
 
+/** The scrolled element and its size in CSS pixels. */
+interface Area {
+    width: number;
+    height: number;
+    element: HTMLElement;
+}
+
 /** Columns fill the width and rows the height, down to a size below which the grid scrolls. */
 function useTileSize(sheet: SheetState, area: { width: number; height: number }): { width: number; height: number } {
     const width = Math.max(smallestTile.width, (area.width - rowHeaderPixels) / Math.max(1, sheet.columns));
@@ -109,13 +129,53 @@ function useTileSize(sheet: SheetState, area: { width: number; height: number })
     return { width: Math.floor(width), height: Math.floor(height) };
 }
 
-function Grid({ sheet, area }: { sheet: SheetState; area: { width: number; height: number } }) {
+/** The part of the grid that is in view; the others have no elements. */
+function useWindow(sheet: SheetState, tile: { width: number; height: number }, area: Area): GridWindow {
+    const measures = {
+        columns: sheet.columns,
+        rows: sheet.rows,
+        tile,
+        header: { width: rowHeaderPixels, height: columnHeaderPixels },
+    };
+    const now = (): GridWindow => {
+        const { scrollLeft, scrollTop } = area.element;
+        return gridWindow(measures, { left: scrollLeft, top: scrollTop }, area);
+    };
+    const [, redraw] = useState(0);
+    const shown = useRef(now());
+    const latest = useRef(now);
+    latest.current = now;
+    const current = now();
+    if (!sameWindow(current, shown.current)) shown.current = current;
+    useEffect(() => {
+        const onScroll = (): void => {
+            if (!sameWindow(latest.current(), shown.current)) redraw((count) => count + 1);
+        };
+        area.element.addEventListener("scroll", onScroll, { passive: true });
+        return () => area.element.removeEventListener("scroll", onScroll);
+    }, [area.element]);
+    return shown.current;
+}
+
+/** Cells that keep their elements wherever the sheet is scrolled to: the one with the focus, and the enlarged one. */
+function useKeptCells(): Address[] {
+    const active = useSelect((state) => formatAddress(state.page.selection.active));
+    const enlarged = useSelect((state) => state.page.enlarged);
+    return [active, enlarged].map((name) => (name ? parseAddress(name) : null)).filter((cell): cell is Address => cell !== null);
+}
+
+function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
     const { store } = useApp();
     const enlarged = useSelect((state) => state.page.enlarged);
     const onKeyDown = useHeaderKeys(sheet);
     const size = useTileSize(sheet, area);
-    const columns = Array.from({ length: sheet.columns }, (_, column) => column);
-    const rows = Array.from({ length: sheet.rows }, (_, row) => row);
+    const shown = useWindow(sheet, size, area);
+    const kept = useKeptCells().filter((cell) => cell.column < sheet.columns && cell.row < sheet.rows);
+    const columns = linesShown(shown.firstColumn, shown.lastColumn, kept.map((cell) => cell.column));
+    const rows = linesShown(shown.firstRow, shown.lastRow, kept.map((cell) => cell.row));
+    const isShown = (row: number, column: number): boolean =>
+        (row >= shown.firstRow && row <= shown.lastRow && column >= shown.firstColumn && column <= shown.lastColumn) ||
+        kept.some((cell) => cell.row === row && cell.column === column);
     const style = {
         gridTemplateColumns: `${rowHeaderPixels}px repeat(${sheet.columns}, ${size.width}px)`,
         gridTemplateRows: `${columnHeaderPixels}px repeat(${sheet.rows}, ${size.height}px)`,
@@ -149,9 +209,11 @@ function Grid({ sheet, area }: { sheet: SheetState; area: { width: number; heigh
             {rows.map((row) => (
                 <div role="row" class="row" key={row} aria-rowindex={row + 1}>
                     <RowHeader row={row} title={sheet.rowTitles?.[String(row + 1)]} />
-                    {columns.map((column) => (
-                        <DropTile key={`${sheet.name} ${column}`} address={{ column, row }} />
-                    ))}
+                    {columns
+                        .filter((column) => isShown(row, column))
+                        .map((column) => (
+                            <DropTile key={`${sheet.name} ${column}`} address={{ column, row }} />
+                        ))}
                 </div>
             ))}
         </div>
@@ -169,6 +231,7 @@ function DropTile({ address }: { address: Address }) {
         <div
             class={`tile-slot ${over ? "drop-target" : ""}`}
             role="presentation"
+            style={{ gridColumn: address.column + 2, gridRow: address.row + 2 }}
             onDragOver={(event) => {
                 if (!takes(event)) return;
                 event.preventDefault();
@@ -228,9 +291,12 @@ export function Sheet() {
                 onMouseDownCapture={takePress}
                 onClickCapture={takePress}
             >
-                {sheet && size.width > 0 && <Grid key={sheet.name} sheet={sheet} area={size} />}
+                {sheet && area.current && size.width > 0 && (
+                    <Grid key={sheet.name} sheet={sheet} area={{ ...size, element: area.current }} />
+                )}
             </div>
             <SheetTabs />
+            <LevelsPanel />
         </main>
     );
 }

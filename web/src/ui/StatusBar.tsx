@@ -1,8 +1,8 @@
 // One quiet line: device, what is drawn, how fast, how full, and whether the server is there.
-import { Cpu, Wifi, WifiOff } from "lucide-preact";
+import { ChartLine, Cpu, Wifi, WifiOff } from "lucide-preact";
 import { formatMs, formatNumber } from "../model/format";
 import type { ConnectionPhase } from "../state/connection";
-import { useSelect } from "./app_context";
+import { useApp, useSelect } from "./app_context";
 
 const phases: Record<ConnectionPhase, string> = {
     connecting: "connecting …",
@@ -31,6 +31,23 @@ function Connection() {
     );
 }
 
+/** The coarsest level of the last frame; opens the panel that says why. */
+function LevelButton({ level }: { level: number }) {
+    const app = useApp();
+    const open = useSelect((state) => state.levels.open);
+    return (
+        <button
+            type="button"
+            class="status-button"
+            aria-expanded={open}
+            title="Coarsest level of detail of the last frame. Click for levels, timings and the policy"
+            onClick={() => app.levels.toggle()}
+        >
+            <ChartLine size={14} aria-hidden="true" /> level {level}
+        </button>
+    );
+}
+
 export function StatusBar() {
     const device = useSelect((state) => state.connection.info?.device ?? null);
     const version = useSelect((state) => state.connection.info?.version ?? "");
@@ -51,7 +68,7 @@ export function StatusBar() {
                     <span title="Time that the last whole frame took to draw">
                         T<sub>N</sub> {formatMs(status.frameMs)}
                     </span>
-                    <span>level {status.level}</span>
+                    <LevelButton level={status.level} />
                     <span title="Textures on the device, of its budget">
                         textures {megabytes(status.residentBytes)} of {megabytes(status.budgetBytes)} MB
                     </span>

@@ -12,6 +12,7 @@ import { newTile, type TileInfo } from "../state/tiles";
 import { useApp, useSelect } from "./app_context";
 import { ClipHandles } from "./clip/ClipHandles";
 import { ColourBar } from "./ColourBar";
+import { LevelBadge } from "./levels/LevelBadge";
 import { OrientationMarks } from "./OrientationMarks";
 import { PictureGestures } from "../input/picture_gestures";
 
@@ -161,11 +162,7 @@ export function Tile({ address }: { address: Address }) {
                         <Link2Off size={12} aria-hidden="true" />
                     </button>
                 )}
-                {drawn && tile.painted && tile.level > 0 && (
-                    <span class="badge" title="Drawn from a reduced level of detail">
-                        level {tile.level}
-                    </span>
-                )}
+                {drawn && tile.painted && <LevelBadge cell={name} />}
             </div>
             <div
                 class="picture"
