@@ -27,6 +27,11 @@ double InteractiveQuality::predictedMs(double fullPixels, int step) const {
     return costs_.at(static_cast<std::size_t>(last_)).msPerPixel * fullPixels * (0.5 + 0.5 * ratio);
 }
 
+bool InteractiveQuality::fitsAtFullQuality(double fullPixels) const {
+    const double known = costs_.front().msPerPixel;
+    return known > 0.0 && known * fullPixels <= budgetMs_;
+}
+
 int InteractiveQuality::choose(double fullPixels) {
     if (last_ < 0) return step_;
     while (step_ + 1 < kQualityStepCount && predictedMs(fullPixels, step_) > budgetMs_)

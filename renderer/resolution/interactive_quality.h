@@ -38,6 +38,9 @@ public:
     void measured(double fullPixels, int step, double frameMs);
     /// Step for the next frame of `fullPixels`. Before any measurement: the middle of the table.
     [[nodiscard]] int choose(double fullPixels);
+    /// Full quality has been measured, and a frame of `fullPixels` at it is predicted to stay within the
+    /// budget.
+    [[nodiscard]] bool fitsAtFullQuality(double fullPixels) const;
     /// Predicted ms at a step; 0 before any measurement.
     [[nodiscard]] double predictedMs(double fullPixels, int step) const;
 

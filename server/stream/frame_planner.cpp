@@ -66,7 +66,9 @@ FramePlan FramePlanner::plan(const ClientView& view, bool interactive) {
         tile.image = tiles_.cached(encodedIdentity(tile.prepared.identity, encoding(false)));
         plan.pixels += pixelsOf(tile.tile);
     }
-    if (interactive)
+    // What is quick enough at full quality, and no gesture, needs no picture before the final one.
+    if (!view.moving && quality_.fitsAtFullQuality(plan.pixels)) plan.interactive = false;
+    if (plan.interactive)
         reduceQuality(*workbook, view, plan);
     else
         keepChunk(plan);
@@ -216,10 +218,10 @@ void FramePlanner::reduceQuality(const sheet::Workbook& workbook, const ClientVi
 void FramePlanner::drawn(const FramePlan& plan, const PlannedTile& tile, const TilePixels& pixels) {
     if (plan.interactive || !pixels.error.empty() || pixels.standIn) return;
     const engine::LevelNeeds& needs = tile.prepared.needs;
-    const double ms =
+    const auto ms =
         levels_.drawn({needs.volume, needs.work, static_cast<int>(needs.textureBytes.size()), pixels.level,
                        pixelsOf(tile.tile), pixels.renderMs, pixels.uploadMs + pixels.readMs});
-    timed_[tile.tile.cell] = {tile.prepared.identity, ms * kTimedTilePixels / pixelsOf(tile.tile)};
+    if (ms) timed_[tile.tile.cell] = {tile.prepared.identity, *ms * kTimedTilePixels / pixelsOf(tile.tile)};
 }
 
 void FramePlanner::frameDrawn(const FramePlan& plan, double pixels, double ms) {

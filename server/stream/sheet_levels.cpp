@@ -140,17 +140,19 @@ void SheetLevels::note(const std::vector<CellOnShow>& cells, const std::vector<C
     }
 }
 
-double SheetLevels::drawn(const DrawnPicture& picture) {
+std::optional<double> SheetLevels::drawn(const DrawnPicture& picture) {
     const std::lock_guard lock(mutex_);
     if (costs_.size() > kMostCosts) costs_.clear();
     if (seen_.size() > kMostCosts) seen_.clear();
-    Costs& costs = costs_[costKey(picture.volume, picture.work)];
+    const std::string key = costKey(picture.volume, picture.work);
+    Costs& costs = costs_[key];
     costs.resize(static_cast<std::size_t>(std::max(picture.levels, picture.level + 1)), 0.0);
     double& known = costs[static_cast<std::size_t>(picture.level)];
     const double measured = picture.renderMs / std::max(1.0, picture.pixels);
-    known = known == 0.0 ? measured : 0.5 * (known + measured);
-    const bool again = !seen_.emplace(picture.volume, picture.level).second;
-    return picture.renderMs + (again ? picture.swapMs : 0.0);
+    const int before = seen_[{key, picture.level}]++;
+    known = before < 2 ? measured : 0.5 * (known + measured);
+    if (warm_.insert(picture.work).second) return std::nullopt;
+    return picture.renderMs + (before == 0 ? 0.0 : picture.swapMs);
 }
 
 void SheetLevels::redrawn(const Redraw& redraw) {

@@ -96,9 +96,10 @@ public:
     /// Focus the levels then stay, so that a picture at rest is never drawn again
     [[nodiscard]] std::vector<int> choose(std::vector<CellOnShow> cells, std::uint64_t textureBudgetBytes,
                                           bool atRest, bool sameAsBefore);
-    /// Returns the time that counts for T_N: the first picture of a volume brings it in, which no later one
-    /// does.
-    double drawn(const DrawnPicture& picture);
+    /// Returns the time that counts for T_N: the first picture of a volume at a level brings it in, which
+    /// counts only when later ones have to do it again. Nothing for the first picture of a kind of work: it
+    /// may have waited for shaders.
+    std::optional<double> drawn(const DrawnPicture& picture);
     void redrawn(const Redraw& redraw);
     /// Asks all pages to have their levels chosen again, by what was told.
     void judge() { changed_(); }
@@ -123,8 +124,9 @@ private:
     bool newRedraw_ = false;
     std::pair<int, std::uint64_t> judged_{0, 0}; ///< N and bytes that the controller was last asked about
     std::string kind_;
-    std::unordered_map<std::string, Costs> costs_; ///< by volume and work
-    std::set<std::pair<std::string, int>> seen_;   ///< volumes and levels that have been drawn
+    std::unordered_map<std::string, Costs> costs_;    ///< by volume and work
+    std::map<std::pair<std::string, int>, int> seen_; ///< pictures by volume with work, and level
+    std::set<std::string> warm_;                      ///< kinds of work that have been done before
     struct Redrawn {
         int coarsest = 0;
         std::uint64_t residentBytes = 0;

@@ -1,0 +1,83 @@
+// A sheet of 256 cells: only what is in view has elements and is drawn, scrolling brings the rest, keys reach every cell.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { look, openBrowser, openPage, settled, waitUntil } from "./page.mjs";
+import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { writeBalls } from "./volumes.mjs";
+
+let folder, server, browser, page;
+
+before(async () => {
+    folder = await makeFolder();
+    const [file] = await writeBalls(folder, 1, 32);
+    server = await startServer(folder, [file]);
+    browser = await openBrowser();
+    page = await openPage(browser, server.url);
+    await settled(page, ["A1"]);
+    // One volume in 256 cells: what is large here is the sheet.
+    await page.evaluate(async () => {
+        const workbook = await (await fetch("api/v1/workbook")).json();
+        const sheet = workbook.sheets[0];
+        const { source } = sheet.cells.A1;
+        sheet.columns = 16;
+        sheet.rows = 16;
+        for (let row = 1; row <= 16; ++row)
+            for (let column = 0; column < 16; ++column)
+                sheet.cells[String.fromCharCode(65 + column) + row] = { source, style: { "camera.azimuth": 20 * column + row } };
+        const answer = await fetch("api/v1/workbook", { method: "PUT", body: JSON.stringify(workbook), headers: { "Content-Type": "application/json" } });
+        if (!answer.ok) throw new Error(await answer.text());
+    });
+});
+
+after(async () => {
+    await browser?.close();
+    if (server) await stopServer(server);
+    await removeFolder(folder);
+});
+
+const state = () =>
+    page.evaluate(() => ({
+        elements: document.querySelectorAll("[data-cell]").length,
+        shown: window.voxsheet.app.sizes.visibleTiles("").map(({ cell }) => cell),
+        status: window.voxsheet.store.get().connection.status,
+    }));
+
+async function scrollTo(left, top) {
+    await page.evaluate(([x, y]) => document.querySelector(".grid-scroll").scrollTo(x, y), [left, top]);
+}
+
+test("only the cells in view have elements and are drawn", async () => {
+    await waitUntil(page, () => window.voxsheet.store.get().tiles.B2?.final);
+    const { elements, shown, status } = await state();
+    assert.ok(elements < 80, `${elements} elements`);
+    assert.ok(shown.length >= 12 && shown.length < 60, shown.join(" "));
+    assert.ok(shown.includes("A1") && !shown.includes("P16"));
+    assert.ok(status.cells <= shown.length);
+});
+
+test("scrolling brings other pictures, and back again costs no rendering", async () => {
+    await scrollTo(99999, 99999);
+    await waitUntil(page, () => window.voxsheet.store.get().tiles.P16?.final);
+    assert.ok((await look(page, "P16")).colours > 10);
+    assert.ok((await state()).elements < 80);
+    const shown = (await state()).shown;
+    await settled(page, shown);
+    const frames = await page.evaluate(() => window.voxsheet.stats.recent.length && window.voxsheet.stats.recent.at(-1).seq);
+    await scrollTo(0, 0);
+    await waitUntil(page, () => document.querySelector('[data-picture-of="A1"] canvas')?.width > 1);
+    await settled(page, ["A1", "B1", "A2", "B2"]);
+    assert.ok((await look(page, "B2")).colours > 10, "what was on show is painted from what is here");
+    const again = await page.evaluate(() => window.voxsheet.stats.recent.at(-1).seq);
+    assert.equal(again, frames, "pictures that the page had already were sent again");
+});
+
+test("arrow keys reach cells that were out of view", async () => {
+    await page.locator('[data-title-of="A1"]').click();
+    for (let i = 0; i < 15; ++i) await page.keyboard.press("ArrowDown");
+    await waitUntil(page, () => document.activeElement?.getAttribute("data-title-of") === "A16");
+    await waitUntil(page, () => {
+        const tile = document.querySelector('[data-cell="A16"]').getBoundingClientRect();
+        return tile.top >= 0 && tile.bottom <= window.innerHeight;
+    });
+    assert.deepEqual(page.problems, []);
+});
