@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMostCosts = 8192; ///< volumes and kinds of work; beyond it learning starts anew
 constexpr int kMostLevels = 9;
+constexpr double kCoarserAtMost = 0.9; ///< expected time of a level / that of the next finer one
 
 /// Of the time of a picture at a level that has not been drawn yet, from one that has: a ray takes half the
 /// samples at the next level, and some of its time stays.
@@ -76,6 +77,9 @@ std::vector<double> SheetLevels::expectedMs(const CellOnShow& cell) const {
             ms[static_cast<std::size_t>(level)] =
                 cell.demand.pixels * known[static_cast<std::size_t>(nearest)] * levelRatio(nearest, level);
     }
+    // Times waver: a coarser level that once seemed slower must not keep the sheet from getting there.
+    for (std::size_t level = 1; level < ms.size(); ++level)
+        ms[level] = std::min(ms[level], kCoarserAtMost * ms[level - 1]);
     return ms;
 }
 

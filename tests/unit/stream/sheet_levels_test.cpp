@@ -60,6 +60,16 @@ TEST_F(SheetLevelsTest, APictureAtRestIsNotDrawnAgainForWhatWasLearnedFromIt) {
     EXPECT_EQ(levels.choose(at(cells(), first), kAmpleBytes, true, true), first);
 }
 
+TEST_F(SheetLevelsTest, ACoarserLevelThatOnceSeemedSlowerIsStillTried) {
+    LevelSettings tight;
+    tight.frameMs = 0.001;
+    levels.setSettings(tight);
+    learn(levels, 10.0);
+    for (const CellOnShow& cell : cells())
+        static_cast<void>(levels.drawn({cell.demand.volume, cell.work, 4, 1, kTimedTilePixels, 30.0, 0.0}));
+    EXPECT_EQ(levels.choose(cells(), kAmpleBytes, true, false), (std::vector<int>{3, 3, 3, 3}));
+}
+
 TEST_F(SheetLevelsTest, TheTextureBudgetCountsToo) {
     const auto chosen = levels.choose(cells(), 9U << 20U, true, false);
     EXPECT_EQ(chosen[3], 0);

@@ -74,7 +74,7 @@ export function TimeNPlot({ points }: { points: readonly TimingPoint[] }) {
             <svg
                 viewBox={`0 0 ${width} 216`}
                 role="img"
-                tabIndex={0}
+                tabindex={0}
                 data-points={ordered.length}
                 aria-label={`Time, R and level over N, ${ordered.length} points; the last: ${pointText(last)}. Arrow keys walk through them.`}
                 onKeyDown={onKeyDown}
