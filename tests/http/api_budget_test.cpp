@@ -40,9 +40,10 @@ std::string volumeFile(int offset) {
     return file;
 }
 
+/// With every cell at full level, whatever the budget: what does not fit is swapped.
 std::unique_ptr<ServedProgram> serve(const std::string& budget, const std::string& memory = "1G") {
     auto program = std::make_unique<ServedProgram>(
-        0, std::vector<std::string>{"--texture-budget", budget, "--memory-budget", memory});
+        0, std::vector<std::string>{"--texture-budget", budget, "--memory-budget", memory, "--dr", "off"});
     for (int i = 0; i < kVolumes; ++i) {
         const auto file = program->folder() / ("v" + std::to_string(i) + ".nrrd");
         std::ofstream(file, std::ios::binary) << volumeFile(i);

@@ -64,7 +64,8 @@ test("scrolling brings other pictures, and back again costs no rendering", async
     await settled(page, shown);
     const frames = await page.evaluate(() => window.voxsheet.stats.recent.length && window.voxsheet.stats.recent.at(-1).seq);
     await scrollTo(0, 0);
-    await waitUntil(page, () => document.querySelector('[data-picture-of="A1"] canvas')?.width > 1);
+    // A canvas begins with one pixel.
+    await waitUntil(page, () => ["A1", "B1", "A2", "B2"].every((cell) => document.querySelector(`[data-picture-of="${cell}"] canvas`)?.width > 1));
     await settled(page, ["A1", "B1", "A2", "B2"]);
     assert.ok((await look(page, "B2")).colours > 10, "what was on show is painted from what is here");
     const again = await page.evaluate(() => window.voxsheet.stats.recent.at(-1).seq);
