@@ -4,7 +4,7 @@ import type { TimingPoint } from "../../api/levels";
 import { axisSteps, inOrder, lines, pointText } from "../../model/levels";
 
 const width = 560;
-const left = 44;
+const left = 68;
 const right = 12;
 const ratioLimit = 1.5;
 const largestRatio = 3;
