@@ -79,8 +79,10 @@ Choice chooseNamed(const std::vector<EglCandidate>& candidates, int index) {
                            "choose 0 to " + std::to_string(candidates.size() - 1))
             .withField("device");
     }
-    return {std::make_unique<EglContext>(candidates[static_cast<std::size_t>(index)]),
-            "It was asked for as device " + std::to_string(index) + "."};
+    Choice choice;
+    choice.egl = std::make_unique<EglContext>(candidates[static_cast<std::size_t>(index)]);
+    choice.reason = "It was asked for as device " + std::to_string(index) + ".";
+    return choice;
 }
 
 Choice chooseBest(const std::vector<EglCandidate>& candidates) {

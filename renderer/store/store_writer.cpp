@@ -67,7 +67,8 @@ StoreWriter::~StoreWriter() {
 
 void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples) {
     validateVolumeKey(meta_, {meta_.key, field, step, 0});
-    const auto index = static_cast<std::size_t>(field * meta_.stepCount() + step);
+    const auto index = static_cast<std::size_t>(field) * static_cast<std::size_t>(meta_.stepCount()) +
+                       static_cast<std::size_t>(step);
     if (written_[index]) throw InvalidInput("dataset '" + meta_.sourcePath + "'", "an array was given twice");
 
     auto& description = meta_.fields[static_cast<std::size_t>(field)];

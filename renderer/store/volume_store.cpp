@@ -158,7 +158,7 @@ void VolumeStore::removeLeftovers() const {
 }
 
 std::filesystem::path VolumeStore::newTemporaryFolder() const {
-    const auto path = folder_ / (kTemporaryPrefix + uniqueSuffix());
+    auto path = folder_ / (kTemporaryPrefix + uniqueSuffix());
     if (::mkdir(path.c_str(), 0700) != 0)
         throw IoError("volume store '" + folder_.string() + "'", std::strerror(errno),
                       "free space on this disk, or choose another folder with --store");
