@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <string>
@@ -93,7 +94,8 @@ nlohmann::json runCase(const HttpBenchOptions& options, int port, const Route& r
             {"refused", all.refused}};
 }
 
-std::vector<Route> routesOf(const HttpBenchOptions& options, const std::string& sheet) {
+std::vector<Route> routesOf(const HttpBenchOptions& options, const std::string& sheet,
+                            const std::filesystem::path& folder) {
     const std::string image = "/api/v1/sheets/" + sheet +
                               "/cells/A1/image.png?width=" + std::to_string(options.width) +
                               "&height=" + std::to_string(options.height);
@@ -101,7 +103,7 @@ std::vector<Route> routesOf(const HttpBenchOptions& options, const std::string& 
     return {
         {"health", always("/livez")},
         {"api", always("/api/v1")},
-        {"files", always("/api/v1/files")},
+        {"files", always("/api/v1/files?path=" + folder.string())},
         {"image_cached", always(image)},
         // An angle that no request before had.
         {"image_drawn", [image](int n) { return image + "&camera.azimuth=" + std::to_string(0.001 * n); }}};
@@ -116,7 +118,8 @@ nlohmann::json runHttpBench(const HttpBenchOptions& options) {
     nlohmann::json result{{"bench", "http"}, {"dim", options.dim}, {"size", {options.width, options.height}}};
     result["cases"] = nlohmann::json::array();
     std::atomic<int> next{1};
-    for (const auto& route : routesOf(options, served.engine().snapshot()->sheets.front().name))
+    for (const auto& route :
+         routesOf(options, served.engine().snapshot()->sheets.front().name, scratch.path()))
         for (const int clients : options.clients)
             result["cases"].push_back(runCase(options, served.port(), route, clients, next));
     return result;

@@ -7,14 +7,18 @@ namespace voxsheet::http {
 
 namespace {
 
-nlohmann::json deviceJson(const engine::Engine& engine) {
+nlohmann::json deviceJson(const engine::Engine& engine, const std::vector<std::string>& devices) {
     const auto* device = engine.device();
     if (device == nullptr) return nullptr;
-    return {{"renderer", device->renderer},  {"vendor", device->vendor},
-            {"version", device->version},    {"platform", device->eglPlatform},
-            {"reason", device->reason},      {"software", device->software},
-            {"robust", device->robust},      {"max_texture_size_3d", device->maxTextureSize3d},
-            {"devices", listRenderDevices()}};
+    return {{"renderer", device->renderer},
+            {"vendor", device->vendor},
+            {"version", device->version},
+            {"platform", device->eglPlatform},
+            {"reason", device->reason},
+            {"software", device->software},
+            {"robust", device->robust},
+            {"max_texture_size_3d", device->maxTextureSize3d},
+            {"devices", devices}};
 }
 
 nlohmann::json rootsJson(const engine::Engine& engine) {
@@ -24,13 +28,13 @@ nlohmann::json rootsJson(const engine::Engine& engine) {
     return roots;
 }
 
-Response info(const ApiContext& context) {
+Response info(const ApiContext& context, const std::vector<std::string>& devices) {
     const auto& options = context.engine.options();
     const auto residency = context.engine.residency();
     const auto* device = context.engine.device();
     return jsonAnswer(nlohmann::json{{"name", "Voxsheet"},
                                      {"version", context.settings.version},
-                                     {"device", deviceJson(context.engine)},
+                                     {"device", deviceJson(context.engine, devices)},
                                      {"budgets",
                                       {{"texture", residency.budgetBytes},
                                        {"texture_why", device != nullptr ? device->textureBudgetReason : ""},
@@ -48,11 +52,14 @@ Response info(const ApiContext& context) {
 } // namespace
 
 void addInfoRoutes(Router& router, const ApiContext& context) {
-    router.add({.method = "GET",
-                .pattern = "/api/v1",
-                .handler = [&context](Request&) { return info(context); },
-                .summary = "Version, device and why it was chosen, budgets, limits, roots",
-                .answerDoc = "{name, version, device, budgets, limits, demo, roots}"});
+    // Asked for once: the driver takes milliseconds to open every device.
+    auto devices = context.engine.device() != nullptr ? listRenderDevices() : std::vector<std::string>{};
+    router.add(
+        {.method = "GET",
+         .pattern = "/api/v1",
+         .handler = [&context, devices = std::move(devices)](Request&) { return info(context, devices); },
+         .summary = "Version, device and why it was chosen, budgets, limits, roots",
+         .answerDoc = "{name, version, device, budgets, limits, demo, roots}"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/keys",
