@@ -37,7 +37,7 @@ std::string budgetNote(const TileSpec& tile, const TileLevels& levels, std::uint
     const std::string what = levels.volume != asked.volume
                                  ? "drawn at level " + std::to_string(levels.volume) + " instead of " +
                                        std::to_string(asked.volume)
-                                 : std::string("a clip object or colouring volume is drawn coarser");
+                                 : std::string("a clip object, colouring volume or layer is drawn coarser");
     return what + ": the texture budget of " + byteText(budgetBytes) +
            " does not hold more; raise --texture-budget";
 }

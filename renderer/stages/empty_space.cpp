@@ -30,19 +30,22 @@ int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
 
 EmptySpaceStage::EmptySpaceStage(gpu::Context& context) : context_(context), textures_(kCachedVolumes) {}
 
-void EmptySpaceStage::bindOccupied(const gpu::Program& program,
-                                   const std::shared_ptr<const TransferTable>& table,
-                                   const ResidentVolume& volume, int reachSamples) {
+const gpu::Texture& EmptySpaceStage::occupied(const std::shared_ptr<const TransferTable>& table,
+                                              const ResidentVolume& volume, int reachSamples) {
     const auto* cells = textures_.find([&](const Key& key) {
         return key.minMax == volume.minMax && key.table && (key.table == table || *key.table == *table) &&
                key.reachSamples == reachSamples;
     });
-    if (cells == nullptr) {
-        const auto marks =
-            occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table, reachSamples);
-        cells = &insertDistances({volume.minMax, table, {}, reachSamples}, volume, marks);
-    }
-    bind(program, volume, *cells);
+    if (cells != nullptr) return *cells;
+    const auto marks =
+        occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table, reachSamples);
+    return insertDistances({volume.minMax, table, {}, reachSamples}, volume, marks);
+}
+
+void EmptySpaceStage::bindOccupied(const gpu::Program& program,
+                                   const std::shared_ptr<const TransferTable>& table,
+                                   const ResidentVolume& volume, int reachSamples) {
+    bind(program, volume, occupied(table, volume, reachSamples));
 }
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,

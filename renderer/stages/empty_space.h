@@ -24,6 +24,10 @@ public:
 
     explicit EmptySpaceStage(gpu::Context& context);
 
+    /// What bindOccupied() binds, for a volume of the shader's own. The reference holds until more is asked
+    /// for.
+    const gpu::Texture& occupied(const std::shared_ptr<const TransferTable>& table,
+                                 const ResidentVolume& volume, int reachSamples);
     /// For compositing: cells are 0 where the table can show something, else emptyDistances().
     void bindOccupied(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
                       const ResidentVolume& volume, int reachSamples);

@@ -58,23 +58,44 @@ vec3 lit(vec3 rgb, vec3 normal, vec3 toEye) {
     return square > 0.0 ? min(colour, 1.0) : rgb;
 }
 
-// Of a sample at `depth` inside the volume: the cut's normal within one voxel behind a cut, else the gradient's.
-vec3 sampleNormal(Ray ray, KeptSpan span, float depth, float depthPerVoxel
+// Whether a sample at `depth` lies within one voxel behind a cut, and then the cut's normal.
+bool cutNormal(Ray ray, KeptSpan span, float depth, float depthPerVoxel,
 #if CLIP_OBJECT
-                  , ClipRay clip, bool nearObject
+               ClipRay clip, bool nearObject,
 #endif
-) {
+               out vec3 normal) {
+    normal = vec3(0.0);
 #if CLIP_OBJECT
     if (nearObject) {
         float before = max(depth - depthPerVoxel, span.begin);
         float measureBefore = keptMeasure(clip, before);
         if (measureBefore < 0.0) {
             float crossing = clipCrossing(before, depth, measureBefore, max(keptMeasure(clip, depth), 0.0));
-            return clipSurfaceNormal(clip.origin + crossing * clip.direction);
+            normal = clipSurfaceNormal(clip.origin + crossing * clip.direction);
+            return true;
         }
     }
 #endif
-    if (span.cutPlane >= 0 && depth - span.begin <= depthPerVoxel) return cutNormals[span.cutPlane].xyz;
-    return viewFromGradient * gradientAt(ray.origin + depth * ray.direction);
+    if (span.cutPlane < 0 || depth - span.begin > depthPerVoxel) return false;
+    normal = cutNormals[span.cutPlane].xyz;
+    return true;
+}
+
+// Of a point inside the volume.
+vec3 gradientNormal(vec3 position) { return viewFromGradient * gradientAt(position); }
+
+// Of a sample at `depth` inside the volume: the cut's normal within one voxel behind a cut, else the gradient's.
+vec3 sampleNormal(Ray ray, KeptSpan span, float depth, float depthPerVoxel
+#if CLIP_OBJECT
+                  , ClipRay clip, bool nearObject
+#endif
+) {
+    vec3 normal;
+#if CLIP_OBJECT
+    bool behindCut = cutNormal(ray, span, depth, depthPerVoxel, clip, nearObject, normal);
+#else
+    bool behindCut = cutNormal(ray, span, depth, depthPerVoxel, normal);
+#endif
+    return behindCut ? normal : gradientNormal(ray.origin + depth * ray.direction);
 }
 #endif

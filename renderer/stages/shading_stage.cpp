@@ -20,14 +20,6 @@ void requireBetween(const char* key, double value, double low, double high) {
             .withField(key);
 }
 
-/// Edges of the level's voxels in the view frame, as columns.
-glm::dmat3 viewFromVoxels(const glm::dmat4& viewFromWorld, const Grid& grid, const glm::ivec3& levelSamples) {
-    auto edges = glm::dmat3(viewFromWorld) * glm::dmat3(worldFromTexture(grid));
-    for (int axis = 0; axis < 3; ++axis)
-        edges[axis] /= static_cast<double>(levelSamples[axis]);
-    return edges;
-}
-
 /// Largest possible difference of two texels.
 double texelRange(const ResidentVolume& volume) {
     const auto& field = volume.meta->fields.at(static_cast<std::size_t>(volume.field));

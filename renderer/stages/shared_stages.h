@@ -5,10 +5,13 @@
 #include "stages/clip_stage.h"
 #include "stages/colour_volume.h"
 #include "stages/empty_space.h"
+#include "stages/layer_stage.h"
 #include "stages/picture_rows.h"
 #include "stages/program_cache.h"
 #include "stages/ray_frame.h"
 #include "stages/shading_stage.h"
+
+#include <vector>
 
 namespace voxsheet {
 
@@ -18,6 +21,7 @@ struct DrawVolumes {
     const ResidentVolume* gradients = nullptr;
     const ResidentVolume* clipObject = nullptr;
     const ResidentVolume* colours = nullptr;
+    std::vector<const ResidentVolume*> layers{}; ///< as in TileSpec::layers
 };
 
 /// One picture to draw: what TechniqueSet::draw was given, and its rays.

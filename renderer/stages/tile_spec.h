@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stages/isosurface_spec.h"
+#include "stages/layer_spec.h"
 #include "stages/shading_spec.h"
 #include "volume/clip.h"
 #include "volume/texture_encoding.h"
@@ -43,6 +44,7 @@ struct TileSpec {
     ClipSpec clip;                                ///< holds for every technique
     ShadingSpec shading;                          ///< not for Mip
     IsosurfaceSpec isosurface;                    ///< Isosurface only
+    LayersSpec layers;                            ///< Raycast only
     FloatTexels floatTexels = FloatTexels::Full;
 };
 

@@ -53,6 +53,7 @@ void validate(const TileSpec& tile) {
     validateClip(tile.clip);
     validateShading(tile.shading);
     validateIsosurface(tile.isosurface);
+    validateLayers(tile);
 }
 
 void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
@@ -113,8 +114,10 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
     validate(tile);
     validateTarget(tile, targetRgba32f);
     auto& stages = implementation_->stages;
-    const DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
-                              volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
+    DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
+                        volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
+    for (const auto& layer : tileVolumes.layers)
+        volumes.layers.push_back(&layer.volume());
     const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid);
     const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
     switch (tile.technique) {

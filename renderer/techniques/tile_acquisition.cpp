@@ -36,6 +36,10 @@ std::optional<Part> colourPart(const TileSpec& tile, int level) {
         {colours.dataset, colours.field, colours.step, level}, FloatTexels::Full, SamplesUse::Drawing};
 }
 
+Part layerPart(const VolumeLayer& layer, int level) {
+    return {{layer.dataset, layer.field, layer.step, level}, layer.floatTexels, SamplesUse::Drawing};
+}
+
 /// One of the levels, and the bytes of what it stands for.
 struct LevelBytes {
     int* level;
@@ -84,6 +88,8 @@ TileLevels askedLevels(const TileSpec& tile) {
     TileLevels levels;
     levels.volume = tile.level;
     if (tile.isosurface.colouredBy) levels.colours = tile.isosurface.colouredBy->level;
+    for (const auto& layer : tile.layers.volumes)
+        levels.layers.push_back(layer.level);
     return levels;
 }
 
@@ -101,6 +107,8 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
         add(drawnPart(tile, levels.volume), levels.volume, wantsGradientTexture(tile));
         add(clipPart(tile, levels.clipObject), levels.clipObject, false);
         add(colourPart(tile, levels.colours), levels.colours, false);
+        for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
+            add(layerPart(tile.layers.volumes[i], levels.layers.at(i)), levels.layers.at(i), false);
         std::uint64_t sum = 0;
         for (const auto& part : parts)
             sum += part.bytes;
@@ -122,6 +130,8 @@ bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, con
     const auto resident = [&](const std::optional<Part>& part) {
         return !part || residency.isResident(part->key, part->floatTexels);
     };
+    for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
+        if (!resident(layerPart(tile.layers.volumes[i], levels.layers.at(i)))) return false;
     const Part drawn = drawnPart(tile, levels.volume);
     return resident(drawn) && resident(clipPart(tile, levels.clipObject)) &&
            resident(colourPart(tile, levels.colours)) &&
@@ -137,7 +147,7 @@ std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const Tile
     const Part drawn = drawnPart(tile, levels.volume);
     auto volume = acquire(drawn);
     if (!volume) return std::nullopt;
-    TileVolumes volumes{std::move(*volume), {}, {}, {}, false, false};
+    TileVolumes volumes{std::move(*volume), {}, {}, {}, {}, false, false};
     if (wantsGradientTexture(tile)) {
         volumes.gradients =
             residency.acquireGradientsBy(deadline, drawn.key, drawn.floatTexels, buildGradients);
@@ -151,6 +161,11 @@ std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const Tile
         volumes.colours = acquire(*part);
         if (!volumes.colours) return std::nullopt;
     }
+    for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
+        auto layer = acquire(layerPart(tile.layers.volumes[i], levels.layers.at(i)));
+        if (!layer) return std::nullopt;
+        volumes.layers.push_back(std::move(*layer));
+    }
     return volumes;
 }
 
@@ -158,7 +173,7 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
                               const DerivedTextureBuilder& buildGradients) {
     bool awaited = false;
     const Part drawn = drawnPart(tile, levels.volume);
-    TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, false, false};
+    TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, {}, false, false};
     volumes.standIn = volumes.volume.volume().level != levels.volume;
     if (wantsGradientTexture(tile)) {
         VolumeKey key = drawn.key;
@@ -177,6 +192,11 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
     if (const auto part = colourPart(tile, levels.colours)) {
         volumes.colours = acquireAtHand(residency, *part, awaited);
         volumes.standIn = volumes.standIn || volumes.colours->volume().level != levels.colours;
+    }
+    for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
+        volumes.layers.push_back(
+            acquireAtHand(residency, layerPart(tile.layers.volumes[i], levels.layers.at(i)), awaited));
+        volumes.standIn = volumes.standIn || volumes.layers.back().volume().level != levels.layers.at(i);
     }
     volumes.awaited = awaited;
     return volumes;

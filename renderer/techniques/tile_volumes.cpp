@@ -8,6 +8,8 @@ double sum(const TileVolumes& volumes, Member member) {
     double total = volumes.volume.*member;
     for (const auto* lease : {&volumes.gradients, &volumes.clipObject, &volumes.colours})
         if (*lease) total += (**lease).*member;
+    for (const auto& lease : volumes.layers)
+        total += lease.*member;
     return total;
 }
 

@@ -5,6 +5,7 @@
 #include "stages/tile_spec.h"
 
 #include <optional>
+#include <vector>
 
 namespace voxsheet {
 
@@ -13,6 +14,7 @@ struct TileLevels {
     int volume = 0;
     int clipObject = 0;
     int colours = 0;
+    std::vector<int> layers; ///< as many as the tile has
 
     bool operator==(const TileLevels&) const = default;
 };
@@ -23,6 +25,7 @@ struct TileVolumes {
     std::optional<VolumeLease> gradients;  ///< shading from a gradient texture
     std::optional<VolumeLease> clipObject; ///< its distances
     std::optional<VolumeLease> colours;    ///< of isosurfaces coloured by another volume
+    std::vector<VolumeLease> layers;       ///< of TileSpec::layers, in their order
     bool standIn = false; ///< something is drawn from another level, or without its gradient texture
     bool awaited = false; ///< what the stand-in stands for is being brought in
 

@@ -90,6 +90,13 @@ nlohmann::json describeColourBar(const CellLook& look) {
     bar["colouredBy"] = nullptr;
     if (const auto& by = look.colouredBy)
         bar["colouredBy"] = barJson(by->transfer, fieldOf(*by->meta, by->shown));
+    bar["layers"] = json::array();
+    for (const LayerLook& layer : look.layers) {
+        json each = barJson(layer.transfer, fieldOf(*layer.meta, layer.shown));
+        each["name"] = layer.name;
+        each["weight"] = layer.weight;
+        bar["layers"].push_back(std::move(each));
+    }
     return bar;
 }
 

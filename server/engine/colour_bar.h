@@ -16,10 +16,11 @@ inline constexpr int kColourBarStops = 64;
 
 /// {stops: [[position, r, g, b, a]...], low, high, scale, unit, quantity, field, map, diverging, shared,
 /// opacity: [[position, opacity]...], ticks: [{pos, value, label}], isovalues: [{value, position, colour:
-/// [r, g, b], opacity}...], colouredBy}: opacity is what transfer.opacity auto came to, to be edited further;
-/// isovalues are those of the surfaces shown, position null outside the bar; colouredBy is null, or of the
-/// volume that colours the surfaces the bar that explains them, with stops, low, high, scale, unit, quantity,
-/// field, map, ticks.
+/// [r, g, b], opacity}...], colouredBy, layers}: opacity is what transfer.opacity auto came to, to be edited
+/// further; isovalues are those of the surfaces shown, position null outside the bar; colouredBy is null, or
+/// of the volume that colours the surfaces the bar that explains them, with stops, low, high, scale, unit,
+/// quantity, field, map, ticks; layers are such bars of the volumes blended into the picture, each with name
+/// and weight.
 [[nodiscard]] nlohmann::json describeColourBar(const CellLook& look);
 
 } // namespace voxsheet::engine

@@ -120,7 +120,8 @@ struct PreparedTile {
     std::string message;   ///< sentence for `code`
     double progress = 1.0; ///< < 1 while the source is being imported or computed
     LevelNeeds needs;      ///< with `spec` only
-    int colourVolumeLevels = 1; ///< of the volume that colours isosurfaces, if there is one
+    int colourVolumeLevels = 1;   ///< of the volume that colours isosurfaces, if there is one
+    std::vector<int> layerLevels; ///< of the volumes blended with the cell's own
 };
 
 struct ProbeValue {

@@ -49,7 +49,8 @@ LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet
     needs.volume = tile.dataset + "/" + std::to_string(tile.field) + "/" + std::to_string(tile.step) +
                    (tile.floatTexels == FloatTexels::Half ? "h" : "") + (gradients ? "g" : "");
     needs.work = std::to_string(static_cast<int>(tile.technique)) + (tile.shading.enabled ? "s" : "") +
-                 (gradients ? "g" : "") + " " + std::to_string(tile.sampleDistanceVoxels);
+                 (gradients ? "g" : "") + std::string(tile.layers.volumes.size(), 'l') + " " +
+                 std::to_string(tile.sampleDistanceVoxels);
     needs.texelEdgePixels = texelEdgePixels(meta.grid, tile.camera, tile.sizePixels);
     needs.finest = static_cast<int>(style.quality);
     needs.pinned = style.level;

@@ -68,6 +68,13 @@ std::string headerText(const std::map<int, sheet::Header>& headers, int line, co
     return found == headers.end() || found->second.title.empty() ? name : name + "  " + found->second.title;
 }
 
+std::string fusedText(const CellLook& look) {
+    std::string text = "fused with";
+    for (std::size_t i = 0; i < look.layers.size(); ++i)
+        text += (i == 0 ? " " : ", ") + look.layers[i].name;
+    return text;
+}
+
 class Composer {
 public:
     Composer(const SheetImageRequest& request, const sheet::Workbook& workbook,
@@ -277,6 +284,10 @@ private:
         if (cell.look->sharedRange && !by) caption += caption.empty() ? "shared" : ", shared";
         canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet,
                     area.size().x * 3 / 4);
+        if (!cell.look->layers.empty()) {
+            canvas.text({right, top - font * 5 / 2}, TextAlign::Right, fusedText(*cell.look), font,
+                        colours.text, area.size().x * 3 / 4);
+        }
     }
 
     /// A line across the bar at each surface's value, and its colour beside it.

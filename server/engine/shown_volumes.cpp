@@ -13,6 +13,9 @@ std::vector<WantedVolume> volumesOf(const TileSpec& tile, WantedPriority priorit
         const auto& by = *tile.isosurface.colouredBy;
         volumes.push_back({{by.dataset, by.field, by.step, by.level}, priority, {}});
     }
+    for (const VolumeLayer& layer : tile.layers.volumes)
+        volumes.push_back(
+            {{layer.dataset, layer.field, layer.step, layer.level}, priority, layer.floatTexels});
     return volumes;
 }
 

@@ -133,6 +133,22 @@ void addIsosurface(Collector& collector, const IsosurfaceSpec& isosurface) {
     collector.add(static_cast<double>(isosurface.method));
 }
 
+void addLayers(Collector& collector, const LayersSpec& layers) {
+    collector.add(static_cast<double>(layers.volumes.size()));
+    if (layers.volumes.empty()) return;
+    collector.add(layers.ownWeight);
+    for (const VolumeLayer& layer : layers.volumes) {
+        collector.add(layer.dataset);
+        collector.add(layer.field);
+        collector.add(layer.step);
+        collector.add(layer.level);
+        collector.add(layer.unitLengthWorld);
+        collector.add(layer.weight);
+        collector.add(static_cast<double>(layer.floatTexels));
+        addTable(collector, *layer.transfer, TableUse::ColoursAndOpacities);
+    }
+}
+
 /// What the technique makes of the transfer table.
 void addColours(Collector& collector, const TileSpec& tile) {
     switch (tile.technique) {
@@ -140,6 +156,7 @@ void addColours(Collector& collector, const TileSpec& tile) {
     case Technique::Raycast:
         collector.add(tile.unitLengthWorld);
         addTable(collector, *tile.transfer, TableUse::ColoursAndOpacities);
+        addLayers(collector, tile.layers);
         break;
     case Technique::Mip: // Opacity as it is, whatever the length.
         addTable(collector, *tile.transfer, TableUse::ColoursAndOpacities);

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "engine/isosurface_resolver.h"
 #include "engine/tile_identity.h"
+#include "sheet/utf8.h"
 
 #include <algorithm>
 
@@ -12,16 +13,39 @@ namespace {
 
 /// What a cell shows for a style that cannot be drawn.
 const char* codeOf(const InvalidInput& error) {
-    for (const char* naming : {"field", "clip.shape", "isosurface.colorBy"}) {
+    for (const char* naming : {"field", "clip.shape", "isosurface.colorBy", "layers"}) {
         if (error.field() == naming) return "#REF!";
     }
     return "#TYPE!";
+}
+
+bool isCell(const sheet::VolumeName& name, const NamingCell& cell) {
+    const auto* address = std::get_if<sheet::SheetAddress>(&name);
+    if (address == nullptr || address->cell != cell.cell) return false;
+    return address->sheet.empty() || sheet::lowerAscii(address->sheet) ==
+                                         sheet::lowerAscii(cell.workbook.sheets.at(cell.sheetIndex).name);
+}
+
+std::string volumeNameText(const sheet::VolumeName& name) {
+    const auto* address = std::get_if<sheet::SheetAddress>(&name);
+    return address != nullptr ? sheet::addressName(*address) : std::get<std::string>(name);
 }
 
 } // namespace
 
 CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex, const sheet::Address& cell,
                          const View& view, const std::shared_ptr<const CellContents>& contents) {
+    CellLook look = ownLook(workbook, sheetIndex, cell, view, contents);
+    const NamingCell from{workbook, sheetIndex, cell, view, *contents, look.resolved.style.timeStep};
+    findClipObject(look, from);
+    findColours(look, from);
+    findLayers(look, from, contents);
+    return look;
+}
+
+CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                            const sheet::Address& cell, const View& view,
+                            const std::shared_ptr<const CellContents>& contents) {
     const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
     CellLook look;
     look.resolved = sheet::resolveStyle(keys_, sheet, cell, {view.all, view.cells, view.request});
@@ -44,11 +68,10 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
             look.transfer.diverging && map != nullptr && map->kind == ColourMapKind::Diverging;
         look.isosurface = resolveIsosurface(surfaces, look.transfer.function, *summary, paleAtZero);
     }
-    findNamedVolumes(look, {workbook, sheetIndex, cell, view, *contents, style.timeStep});
     return look;
 }
 
-void TileMaker::findNamedVolumes(CellLook& look, const NamingCell& from) {
+void TileMaker::findClipObject(CellLook& look, const NamingCell& from) {
     const sheet::TypedStyle& style = look.resolved.style;
     if (style.clip.shape.empty()) {
         named_.releaseClipObject(from);
@@ -57,6 +80,10 @@ void TileMaker::findNamedVolumes(CellLook& look, const NamingCell& from) {
         look.clipObject = std::move(object.volume);
         look.missing = std::move(object.missing);
     }
+}
+
+void TileMaker::findColours(CellLook& look, const NamingCell& from) {
+    const sheet::TypedStyle& style = look.resolved.style;
     const std::string& colourBy = style.isosurface.colourBy;
     if (style.technique != sheet::Technique::Isosurface || colourBy.empty()) return;
     auto colours =
@@ -73,6 +100,58 @@ void TileMaker::findNamedVolumes(CellLook& look, const NamingCell& from) {
     by.transfer = resolveTransfer(own, maps_, *cache_.summary(*by.meta, by.shown.field, by.shown.step),
                                   boxPathUnitLengths(by.meta->grid));
     look.colouredBy = std::move(by);
+}
+
+void TileMaker::findLayers(CellLook& look, const NamingCell& from,
+                           const std::shared_ptr<const CellContents>& contents) {
+    const sheet::LayersStyle& layers = look.resolved.style.layers;
+    if (layers.volumes.empty()) return;
+    const auto names = sheet::parseLayers(layers.volumes);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        // A style that is linked over the sheet reaches the cells that it names, too: they are there already.
+        if (isCell(names[i], from)) continue;
+        if (look.resolved.style.technique != sheet::Technique::Raycast) {
+            throw InvalidInput("layers", "only ray casting blends several volumes in one picture",
+                               "set technique to raycast, or layers to none")
+                .withField("technique");
+        }
+        auto layer = layerLook(look, names[i], from, contents);
+        if (!layer) return;
+        layer->weight = layers.weights.at(std::min(i + 1, layers.weights.size() - 1));
+        look.layers.push_back(std::move(*layer));
+    }
+}
+
+std::optional<LayerLook> TileMaker::layerLook(CellLook& look, const sheet::VolumeName& name,
+                                              const NamingCell& from,
+                                              const std::shared_ptr<const CellContents>& contents) {
+    auto volume = named_.find(name, from, "layers");
+    if (!volume.volume) {
+        look.missing = std::move(volume.missing);
+        return std::nullopt;
+    }
+    LayerLook layer;
+    layer.name = volumeNameText(name);
+    layer.meta = volume.volume->meta;
+    layer.shown = {volume.volume->field, volume.volume->step};
+    sheet::TypedStyle style;
+    if (const auto* cell = std::get_if<sheet::SheetAddress>(&name)) {
+        const std::size_t index =
+            cell->sheet.empty() ? from.sheetIndex : sheet::sheetIndex(from.workbook, cell->sheet);
+        CellLook other = ownLook(from.workbook, index, cell->cell, from.view, contents);
+        layer.transfer = std::move(other.transfer);
+        style = std::move(other.resolved.style);
+    } else {
+        const sheet::ResolvedStyle initial = sheet::defaultStyle(keys_);
+        layer.transfer =
+            resolveTransfer(initial, maps_, *cache_.summary(*layer.meta, layer.shown.field, layer.shown.step),
+                            boxPathUnitLengths(layer.meta->grid));
+        style = initial.style;
+    }
+    layer.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(layer.meta->grid));
+    layer.floatTexels =
+        style.textureFormat == sheet::TextureFormat::Half ? FloatTexels::Half : FloatTexels::Full;
+    return layer;
 }
 
 std::shared_ptr<const ValueSummary>
@@ -168,6 +247,14 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
                          std::min(spec.level, by->meta->levels() - 1), cache_.table(by->transfer.function)};
         tile.colourVolumeLevels = by->meta->levels();
     }
+    if (!look.layers.empty()) spec.layers.ownWeight = style.layers.weights.front();
+    for (const LayerLook& layer : look.layers) {
+        spec.layers.volumes.push_back({layer.meta->key, layer.shown.field, layer.shown.step,
+                                       std::min(spec.level, layer.meta->levels() - 1),
+                                       cache_.table(layer.transfer.function), layer.unitLengthWorld,
+                                       layer.weight, layer.floatTexels});
+        tile.layerLevels.push_back(layer.meta->levels());
+    }
     tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
     tile.spec = std::move(spec);
     tile.identity = tileIdentity(*tile.spec, environment_.text);
@@ -179,6 +266,8 @@ PreparedTile TileMaker::atLevel(PreparedTile tile, int level) const {
     if (wanted == spec.level) return tile;
     spec.level = wanted;
     if (auto& by = spec.isosurface.colouredBy) by->level = std::min(wanted, tile.colourVolumeLevels - 1);
+    for (std::size_t i = 0; i < spec.layers.volumes.size(); ++i)
+        spec.layers.volumes[i].level = std::min(wanted, tile.layerLevels.at(i) - 1);
     tile.identity = tileIdentity(spec, environment_.text);
     return tile;
 }

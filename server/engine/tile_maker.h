@@ -21,6 +21,18 @@ struct ColouringLook {
     ResolvedTransfer transfer; ///< by the cell's own style, over this volume's range
 };
 
+/// Another volume that is blended into a cell's picture, and how: as the cell that shows it, or with the
+/// default look.
+struct LayerLook {
+    std::string name; ///< as the style names it: "B1", "run 2"
+    std::shared_ptr<const DatasetMeta> meta;
+    FieldAndStep shown;
+    ResolvedTransfer transfer;
+    double unitLengthWorld = 1.0;
+    double weight = 1.0;
+    FloatTexels floatTexels = FloatTexels::Full;
+};
+
 /// How one cell shows its dataset.
 struct CellLook {
     sheet::ResolvedStyle resolved;
@@ -31,6 +43,7 @@ struct CellLook {
     bool sharedRange = false;
     std::optional<ClipObjectVolume> clipObject;
     std::optional<ColouringLook> colouredBy;
+    std::vector<LayerLook> layers;
     std::optional<MissingVolume> missing; ///< a volume that the style names; without it there is no picture
 };
 
@@ -72,7 +85,18 @@ private:
                   const CellLook& own, const std::shared_ptr<const CellContents>& contents);
     [[nodiscard]] std::vector<ValueSummary>
     sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex, const CellContents& contents);
-    void findNamedVolumes(CellLook& look, const NamingCell& from);
+    /// Without the volumes that the style names.
+    [[nodiscard]] CellLook ownLook(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                   const sheet::Address& cell, const View& view,
+                                   const std::shared_ptr<const CellContents>& contents);
+    void findClipObject(CellLook& look, const NamingCell& from);
+    void findColours(CellLook& look, const NamingCell& from);
+    void findLayers(CellLook& look, const NamingCell& from,
+                    const std::shared_ptr<const CellContents>& contents);
+    /// Nothing: it is not there, and `look.missing` says why.
+    [[nodiscard]] std::optional<LayerLook> layerLook(CellLook& look, const sheet::VolumeName& name,
+                                                     const NamingCell& from,
+                                                     const std::shared_ptr<const CellContents>& contents);
     void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
 
     const sheet::KeyTable& keys_;

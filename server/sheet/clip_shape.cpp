@@ -90,6 +90,22 @@ VolumeName parseVolumeName(std::string_view text, const std::string& key) {
     return plain;
 }
 
+std::vector<VolumeName> parseLayers(std::string_view text) {
+    std::vector<VolumeName> names;
+    bool quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() && text[i] == '\'') quoted = !quoted;
+        if (i < text.size() && (quoted || text[i] != ';')) continue;
+        names.push_back(parseVolumeName(text.substr(begin, i - begin), "layers"));
+        begin = i + 1;
+    }
+    if (names.size() > kMaxLayerNames)
+        refuse("layers", text, std::to_string(names.size()) + " volumes are named",
+               "name at most " + std::to_string(kMaxLayerNames) + " besides the cell's own");
+    return names;
+}
+
 ClipShape parseClipShape(std::string_view text) {
     const auto whole = trimmed(text);
     if (const auto at = comparisonAt(whole); at != std::string_view::npos) return parseComparison(whole, at);

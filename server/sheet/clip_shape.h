@@ -1,11 +1,14 @@
-// What `clip.shape` names: an analytic shape, a dataset, or where a volume compares with a number.
+// What style keys name: volumes, and for `clip.shape` an analytic shape, a dataset, or where a volume
+// compares with a number.
 #pragma once
 
 #include "sheet/address.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace voxsheet::sheet {
 
@@ -47,5 +50,11 @@ using ClipShape = std::variant<AnalyticShape, DatasetShape, ComparisonShape>;
 /// A cell (`B1`, `Sheet2!B4`, `'My sheet'!B4`) or a dataset's name (in single quotes, or plain where it does
 /// not look like a cell). Throws InvalidInput (field `key`).
 [[nodiscard]] VolumeName parseVolumeName(std::string_view text, const std::string& key);
+
+inline constexpr std::size_t kMaxLayerNames = 3;
+
+/// Volumes separated by semicolons (`B1; Sheet2!C1; 'run; 2'`), each as parseVolumeName; at most
+/// kMaxLayerNames. Throws InvalidInput (field layers).
+[[nodiscard]] std::vector<VolumeName> parseLayers(std::string_view text);
 
 } // namespace voxsheet::sheet

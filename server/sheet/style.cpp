@@ -95,6 +95,13 @@ ResolvedStyle resolveStyle(const KeyTable& keys, const Sheet& sheet, const Addre
     return resolved;
 }
 
+ResolvedStyle defaultStyle(const KeyTable& keys) {
+    ResolvedStyle resolved;
+    resolved.values = defaults(keys);
+    resolved.style = typedStyle(resolved.values);
+    return resolved;
+}
+
 ResolvedValues resolveLayer(const KeyTable& keys, const Sheet& sheet, const Layer& layer) {
     if (layer.kind == LayerKind::Cell) return resolveStyle(keys, sheet, {layer.column, layer.row}).values;
     ResolvedValues values = defaults(keys);

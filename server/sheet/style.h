@@ -66,6 +66,9 @@ struct ResolvedStyle {
 [[nodiscard]] ResolvedStyle resolveStyle(const KeyTable& keys, const Sheet& sheet, const Address& address,
                                          const StyleOverlay& overlay = {});
 
+/// Every key at its default.
+[[nodiscard]] ResolvedStyle defaultStyle(const KeyTable& keys);
+
 /// Only the values and origins that reach a layer itself: a sheet sees defaults and its own; a column or row
 /// also the sheet's; a cell all.
 [[nodiscard]] ResolvedValues resolveLayer(const KeyTable& keys, const Sheet& sheet, const Layer& layer);

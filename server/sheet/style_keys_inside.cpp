@@ -1,4 +1,4 @@
-// Keys that look inside a volume: isosurfaces, clipping, light.
+// Keys that look inside a volume: isosurfaces, further volumes, clipping, light.
 #include "sheet/style_key_builders.h"
 
 namespace voxsheet::sheet {
@@ -32,6 +32,21 @@ void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
     add(choice(
         "isosurface.method", {"refined", "alphatest"}, "refined", group,
         "Crossings found and refined, or, for comparison, the plain test per sample, which leaves gaps."));
+}
+
+void addLayerKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Layers";
+    // Shown with every technique: one that cannot blend them is an error, which "none" resolves.
+    keys.push_back(withNone(typed(
+        "layers", KeyType::Text, None{}, group, "text",
+        "Up to three other cells or datasets that are blended into the picture (raycast only), as in B1; "
+        "C1: each with that cell's own transfer function, at the same place in the world. A cell that "
+        "names itself is not blended twice.")));
+    keys.push_back(when(
+        numberRows("layers.weights", {{"weight"}, 1, 4, 0.0, 1.0}, NumberTable{{{1.0}}}, group,
+                   "Factors on the densities of the cell's own volume and of the layers in their order, the "
+                   "last one for all that follow."),
+        "technique", {"raycast"}));
 }
 
 void addClipKeys(std::vector<KeySpec>& keys) {

@@ -165,6 +165,7 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     addIsosurfaceKeys(keys);
     addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
+    addLayerKeys(keys);
     addClipKeys(keys);
     addLightKeys(keys);
     addPicture(keys);

@@ -152,6 +152,10 @@ IsosurfaceStyle isosurfaceOf(const Reader& read) {
     return isosurface;
 }
 
+LayersStyle layersOf(const Reader& read) {
+    return {read.find<std::string>("layers").value_or(""), columnOf(read.rows("layers.weights"))};
+}
+
 ShadingStyle shadingOf(const Reader& read) {
     ShadingStyle shading;
     shading.model = read.choice<ShadingModel>("shading.model", kShadingModels);
@@ -192,6 +196,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.annotations = read.choice<Annotations>("annotations", kAnnotations);
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
+    style.layers = layersOf(read);
     style.shading = shadingOf(read);
     style.light = lightOf(read);
     style.textureFormat = read.choice<TextureFormat>("texture.format", kTextureFormats);

@@ -116,6 +116,13 @@ struct IsosurfaceStyle {
     bool operator==(const IsosurfaceStyle&) const = default;
 };
 
+/// Volumes that are blended with the cell's own (raycast only).
+struct LayersStyle {
+    std::string volumes;              ///< empty: none; else as parseLayers()
+    std::vector<double> weights{1.0}; ///< the cell's own first, the last one repeats; [0, 1]
+    bool operator==(const LayersStyle&) const = default;
+};
+
 enum class ShadingModel { Auto, None, Phong }; ///< Auto: Phong for isosurfaces, none otherwise
 enum class GradientSource { Auto, Texture, OnTheFly };
 enum class LightFrame { View, World };
@@ -155,6 +162,7 @@ struct TypedStyle {
     Annotations annotations = Annotations::All;
     ClipStyle clip;
     IsosurfaceStyle isosurface;
+    LayersStyle layers;
     ShadingStyle shading;
     LightStyle light;
     TextureFormat textureFormat = TextureFormat::Auto;

@@ -1,5 +1,6 @@
 #include "fields/inside.h"
 
+#include "fields/index_slope.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
@@ -21,6 +22,53 @@ struct Light {
     [[nodiscard]] glm::dvec4 pixel() const { return {colour, 1.0 - transmittance}; }
 };
 
+/// Extinctions per world length of all volumes at a point, and their sum weighted with colours
+/// (stages/layer_spec.h).
+struct Matter {
+    double extinction = 0.0;
+    glm::dvec3 emission{0.0};
+
+    void add(const glm::dvec4& entry, const glm::dvec3& rgb, double weight, double unitLength) {
+        const double perUnit = entry.w < 1.0 ? std::min(-std::log2(1.0 - entry.w), 4096.0) : 4096.0;
+        const double more = weight * perUnit / unitLength;
+        extinction += more;
+        emission += more * rgb;
+    }
+};
+
+void addLayer(Matter& matter, const RayTruth& ray, double depth, std::size_t index) {
+    const auto& source = ray.sources.layers[index];
+    const auto& layer = ray.tile.layers.volumes[index];
+    const auto at =
+        glm::dvec3(glm::inverse(worldFromTexture(source.grid)) * glm::dvec4(ray.ray.at(depth), 1.0));
+    const auto box = boxIndex(source.grid);
+    constexpr double slack = 1e-6; // boxes that share a face share its points
+    const auto low = (box.low + 0.5) / glm::dvec3(source.grid.dims) - slack;
+    const auto high = (box.high + 0.5) / glm::dvec3(source.grid.dims) + slack;
+    if (glm::any(glm::lessThan(at, low)) || glm::any(glm::greaterThan(at, high))) return;
+    const double value = source.value(at);
+    if (std::isnan(value)) return;
+    const auto entry = classify(*layer.transfer, value);
+    auto rgb = glm::dvec3(entry);
+    if (ray.tile.shading.enabled && entry.w > 0.0) {
+        const auto cut = ray.cutNormal(depth);
+        rgb = ray.lit(rgb, cut ? *cut : worldGradient(source.grid, source.levelDims, source.indexSlope(at)));
+    }
+    matter.add(entry, rgb, layer.weight, layer.unitLengthWorld);
+}
+
+Matter matterOfAll(const RayTruth& ray, double depth) {
+    Matter matter;
+    if (const double value = ray.value(depth); !std::isnan(value)) {
+        const auto entry = classify(*ray.tile.transfer, value);
+        matter.add(entry, ray.lit(glm::dvec3(entry), ray.sampleNormal(depth)), ray.tile.layers.ownWeight,
+                   ray.tile.unitLengthWorld);
+    }
+    for (std::size_t i = 0; i < ray.sources.layers.size(); ++i)
+        addLayer(matter, ray, depth, i);
+    return matter;
+}
+
 /// The stretch [begin, end] of a volume, as far as it is kept, one sample in the middle of that.
 void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     if (ray.sources.clip && ray.tile.clip.object->binary) {
@@ -33,10 +81,17 @@ void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     }
     if (!(begin < end)) return;
     const double depth = 0.5 * (begin + end);
+    const double length = (end - begin) * ray.lengthPerDepth;
+    if (!ray.sources.layers.empty()) {
+        const auto matter = matterOfAll(ray, depth);
+        if (matter.extinction > 0.0)
+            light.add(matter.emission / matter.extinction, 1.0 - std::exp2(-matter.extinction * length));
+        return;
+    }
     const double value = ray.value(depth);
     if (std::isnan(value)) return;
     const auto entry = classify(*ray.tile.transfer, value);
-    const double exponent = (end - begin) * ray.lengthPerDepth / ray.tile.unitLengthWorld;
+    const double exponent = length / ray.tile.unitLengthWorld;
     light.add(ray.lit(glm::dvec3(entry), ray.sampleNormal(depth)), 1.0 - std::pow(1.0 - entry.w, exponent));
 }
 

@@ -84,12 +84,17 @@ std::optional<double> RayTruth::lastEntry(double depth, double reach) const {
     return std::nullopt;
 }
 
-glm::dvec3 RayTruth::sampleNormal(double depth) const {
-    if (!tile.shading.enabled) return glm::dvec3(0.0);
+std::optional<glm::dvec3> RayTruth::cutNormal(double depth) const {
     const double voxel = 1.0 / voxelsPerDepth;
     if (const auto entry = lastEntry(depth, voxel)) return objectNormal(*entry);
     if (range.cutPlane >= 0 && depth - range.begin <= voxel) return range.entryNormal;
-    return gradient(depth);
+    return std::nullopt;
+}
+
+glm::dvec3 RayTruth::sampleNormal(double depth) const {
+    if (!tile.shading.enabled) return glm::dvec3(0.0);
+    const auto cut = cutNormal(depth);
+    return cut ? *cut : gradient(depth);
 }
 
 } // namespace voxsheet::fields

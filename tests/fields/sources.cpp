@@ -23,6 +23,14 @@ ClipSource clipSourceOf(const VolumeProvider& volumes, const ClipObject& object)
     return source;
 }
 
+LayerSource layerSourceOf(const VolumeProvider& volumes, const VolumeLayer& layer) {
+    const auto interpolant = std::make_shared<const Interpolant>(
+        volumes, VolumeKey{layer.dataset, layer.field, layer.step, layer.level});
+    const auto grid = volumes.describe(layer.dataset)->grid;
+    const auto value = valuesOf(interpolant);
+    return {grid, interpolant->dims(), value, onTheFlySlope(value, interpolant->dims(), grid.periodic)};
+}
+
 } // namespace
 
 Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
@@ -47,6 +55,8 @@ Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
                           valuesOf(std::make_shared<const Interpolant>(
                               volumes, VolumeKey{by.dataset, by.field, by.step, by.level}))};
     }
+    for (const auto& layer : tile.layers.volumes)
+        sources.layers.push_back(layerSourceOf(volumes, layer));
     return sources;
 }
 

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace voxsheet::fields {
 
@@ -32,6 +33,13 @@ struct ColourSource {
     ValueAt value;
 };
 
+struct LayerSource {
+    Grid grid;
+    glm::ivec3 levelDims{1};
+    ValueAt value;
+    GradientAt indexSlope; ///< by six taps
+};
+
 struct Sources {
     Grid grid;             ///< of the drawn volume
     glm::ivec3 levelDims;  ///< of the drawn level
@@ -41,6 +49,7 @@ struct Sources {
         0.0; ///< largest value less smallest, of the whole volume (IsosurfaceMethod::AlphaTest)
     std::optional<ClipSource> clip;     ///< for tile.clip.object
     std::optional<ColourSource> colour; ///< for tile.isosurface.colouredBy
+    std::vector<LayerSource> layers;    ///< for tile.layers, in their order
 };
 
 /// Everything that `tile` names, read through the provider: trilinear interpolants of the stored samples, and

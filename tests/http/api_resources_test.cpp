@@ -187,6 +187,24 @@ TEST_F(ApiResources, AClipObjectOfDataIsWaitedFor) {
     EXPECT_NE(broken.body.find("clip.shape"), std::string::npos) << broken.body;
 }
 
+TEST_F(ApiResources, TwoCellsFusedInOnePicture) {
+    const auto url = kSheet + "/cells/A1/image.png?width=64&height=48";
+    const auto alone = program_->get(url);
+    ASSERT_EQ(alone.status, 200) << alone.body;
+    const auto fused = program_->get(url + "&layers=B1&layers.weights=1,0.5");
+    ASSERT_EQ(fused.status, 200) << fused.body;
+    EXPECT_NE(fused.body, alone.body);
+    EXPECT_EQ(program_->get(url + "&layers=A1").body, alone.body) << "it is there already";
+    const auto bar = getJson(kSheet + "/cells/A1/colourbar?layers=B1&layers.weights=1,0.5");
+    EXPECT_EQ(bar.at("layers").at(0).at("name"), "B1");
+    EXPECT_EQ(bar.at("layers").at(0).at("weight"), 0.5);
+    for (const auto* query : {"&layers=C9", "&layers=B1&technique=slices", "&layers=B1&layers.weights=2"}) {
+        const auto refused = program_->get(url + query);
+        EXPECT_EQ(refused.status, 400) << query;
+        EXPECT_NE(refused.body.find("layers"), std::string::npos) << refused.body;
+    }
+}
+
 TEST_F(ApiResources, ProbeReadsSourceValues) {
     const auto probe = getJson(kSheet + "/probe?x=3&y=4&z=5");
     ASSERT_EQ(probe.at("values").size(), 3U);

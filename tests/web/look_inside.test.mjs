@@ -56,6 +56,20 @@ test("a preset changes all pictures with one press, is one undo step, and comes 
     assert.equal((await styleOf(page, "A1", "technique")).value, technique);
 });
 
+test("another cell is fused into the pictures, which say so", async () => {
+    const alone = await looks();
+    await page.locator("#key-layers").fill("B1");
+    await page.locator("#key-layers").press("Enter");
+    await waitForStyle(page, "A1", "layers", "none");
+    await settled(page, cells);
+    assert.deepEqual(changed(await looks(), alone), ["A1", "C1"], "B1 itself is not blended twice");
+    await page.locator('[data-picture-of="A1"] .layer-bars', { hasText: "B1" }).waitFor();
+    await undo();
+    await waitForStyle(page, "A1", "layers", "B1");
+    await settled(page, cells);
+    assert.deepEqual(await looks(), alone);
+});
+
 test("the technique can be switched, and an automatic isovalue stands on the histogram where it is drawn", async () => {
     await page.locator("#key-technique").selectOption("isosurface");
     await waitForOrigin(page, "technique", "sheet");

@@ -11,14 +11,21 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     auto defines = stages.definesFor(request);
+    const auto layerDefines = LayerStage::defines(tile, volumes.layers, stages.filterFloatsInShader);
+    defines.insert(defines.end(), layerDefines.begin(), layerDefines.end());
     // Near a clip object's surface samples are dear, and short chunks keep close to it.
-    const int samples = chunkSamples(tile.sampleDistanceVoxels, kShortReach);
-    defines.emplace_back("CHUNK_SAMPLES",
-                         std::to_string(volumes.clipObject != nullptr ? std::min(4, samples) : samples));
+    const int longest = chunkSamples(tile.sampleDistanceVoxels, kShortReach);
+    const int samples = volumes.clipObject != nullptr ? std::min(4, longest) : longest;
+    defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
     stages.bindFor(program, request);
-    if (stages.skipEmptySpace) stages.emptySpace.bindOccupied(program, tile.transfer, volume, kShortReach);
+    LayerStage::bind(program, tile, volume, volumes.layers, stages.classification);
+    if (stages.skipEmptySpace) {
+        LayerStage::bindOccupied(program, tile, volume, volumes.layers, samples * tile.sampleDistanceVoxels,
+                                 stages.emptySpace);
+        stages.emptySpace.bindOccupied(program, tile.transfer, volume, kShortReach);
+    }
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));

@@ -1,6 +1,7 @@
 // Emission and absorption along one ray per pixel, front to back (techniques/raycast/raycast.h).
 //   CHUNK_SAMPLES  samples that one look-up of empty space answers for
 //   SKIP_EMPTY     1: stretches that cannot show anything are left out
+//   LAYERS         volumes blended with the drawn one
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
@@ -8,6 +9,7 @@
 #include "stages/picture_pixel.glsl"
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
+#include "stages/layers.glsl"
 
 layout(binding = 2) uniform usampler3D occupiedCells;
 
@@ -17,10 +19,14 @@ uniform float unitsPerRadius; // bounding radius / unitLength
 
 const float kOpaque = 1.0 / 1024.0;
 
-// From a chunk with its middle there to the next that may show something, in chunks; 0: it may itself.
-int chunksAhead(vec3 middle) {
+// From a chunk with its middle there to the next that may show something, in chunks; 0: it may itself. `chunk`: what it covers.
+int chunksAhead(vec3 middle, vec3 chunk) {
 #if SKIP_EMPTY
-    return stretchesAhead(texelFetch(occupiedCells, cellAt(middle), 0).r, float(CHUNK_SAMPLES) * sampleDistanceVoxels);
+    int ahead = stretchesAhead(texelFetch(occupiedCells, cellAt(middle), 0).r, float(CHUNK_SAMPLES) * sampleDistanceVoxels);
+#if LAYERS
+    if (ahead > 0) ahead = min(ahead, layersStretchesAhead(middle, chunk));
+#endif
+    return ahead;
 #else
     return 0;
 #endif
@@ -51,20 +57,28 @@ void add(inout Light light, vec4 entry, float length) {
 }
 
 #if SHADING
-vec3 normalAt(Path path, float depth, bool nearObject) {
+// Whether the sample has a cut's normal, and which.
+bool cutNormalAt(Path path, float depth, bool nearObject, out vec3 normal) {
 #if CLIP_OBJECT
-    return sampleNormal(path.ray, path.span, depth, path.depthPerVoxel, path.clip, nearObject);
+    return cutNormal(path.ray, path.span, depth, path.depthPerVoxel, path.clip, nearObject, normal);
 #else
-    return sampleNormal(path.ray, path.span, depth, path.depthPerVoxel);
+    return cutNormal(path.ray, path.span, depth, path.depthPerVoxel, normal);
 #endif
 }
 #endif
 
 // The sample at `depth` that stands for `length` of depth.
 void takeSample(inout Light light, Path path, float depth, float length, bool nearObject) {
-    vec4 entry = classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction));
+    vec3 position = path.ray.origin + depth * path.ray.direction;
+    vec4 entry = classifyTexel(texelAt(position));
+    vec3 normal = vec3(0.0);
+    bool behindCut = false;
 #if SHADING
-    if (entry.a > 0.0) entry.rgb = lit(entry.rgb, normalAt(path, depth, nearObject), path.ray.toEye);
+    if (LAYERS > 0 || entry.a > 0.0) behindCut = cutNormalAt(path, depth, nearObject, normal);
+    if (entry.a > 0.0) entry.rgb = lit(entry.rgb, behindCut ? normal : gradientNormal(position), path.ray.toEye);
+#endif
+#if LAYERS
+    blendLayers(entry, position, LayerLight(path.ray.toEye, behindCut, normal));
 #endif
     add(light, entry, length * path.unitsPerDepth);
 }
@@ -115,7 +129,7 @@ void look(Path path, inout Chunk at) {
 #endif
     if (at.verdict < 0) at.index = max(at.index, int((removedUntil - path.span.begin) / length) - 1);
     else {
-        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction);
+        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction, length * path.ray.direction);
         if (ahead > 0) at.verdict = -1;
         at.index += max(ahead - 1, 0);
     }
@@ -159,11 +173,11 @@ void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
 // Every lane of a SIMD group seeks its own next chunk, so that all of them then have samples to take.
 void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
     int chunk = 0;
-    float middle = 0.5 * float(CHUNK_SAMPLES) * path.spacing;
+    float length = float(CHUNK_SAMPLES) * path.spacing;
     while (light.transmittance > kOpaque) {
         int ahead = 1;
         while (chunk < chunks && ahead > 0) {
-            ahead = chunksAhead(path.ray.origin + (chunkBegin(path, chunk) + middle) * path.ray.direction);
+            ahead = chunksAhead(path.ray.origin + (chunkBegin(path, chunk) + 0.5 * length) * path.ray.direction, length * path.ray.direction);
             chunk += ahead;
         }
         if (chunk >= chunks) break;

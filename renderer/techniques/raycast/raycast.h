@@ -6,7 +6,8 @@
 // sample i of the whole ones at a + (i + 1/2) ds. Its alpha is 1 - (1 - opacity)^(length / unitLength) with
 // the stretch's world length, the rest's own length included, so the whole path counts exactly once. Colour =
 // sum of alpha_i rgb_i prod_{j<i} (1 - alpha_j), in 32-bit floats, front to back; a ray may end once its
-// transmittance is below 1/1024.
+// transmittance is below 1/1024. Where other volumes are blended (stages/layer_spec.h), opacity and rgb are
+// those of all of them at the sample.
 #pragma once
 
 #include "stages/shared_stages.h"

@@ -114,7 +114,7 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                 .anyStyleKey = true,
                 .answerDoc =
                     "{stops, low, high, scale, unit, quantity, shared, ticks, isovalues: [{value, position, "
-                    "colour, opacity}], colouredBy}"});
+                    "colour, opacity}], colouredBy, layers}"});
 }
 
 } // namespace voxsheet::http

@@ -1,6 +1,7 @@
 // The facade without a renderer: imports by the real importer, workbook, formulas, files.
 #include "base/errors.h"
 #include "engine/engine.h"
+#include "engine/shown_volumes.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -422,6 +423,80 @@ TEST_F(EngineTest, SurfacesColouredByAnotherCellSpanThatCellsValues) {
     EXPECT_EQ(by.transfer->high, 30.0);
     view.all["technique"] = std::string("raycast");
     EXPECT_FALSE(engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {}).spec->isosurface.colouredBy);
+}
+
+TEST_F(EngineTest, LayersLookAsTheirOwnCellsDo) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {40, 40, 40}, 20))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    setSource(engine, "A2", "=B1*2");
+    ASSERT_TRUE(engine.waitIdle(60));
+    engine.apply(sheet::SetStyle{"Sheet1",
+                                 sheet::Layer::ofCell({1, 0}),
+                                 {{"transfer.map", std::string("inferno")},
+                                  {"transfer.unitLength", 3.5},
+                                  {"texture.format", std::string("half")}},
+                                 false});
+    const auto prepare = [&](const char* cell, const View& view) {
+        return engine.prepareTile(*engine.snapshot(), "", sheet::parseAddress(cell), view, {});
+    };
+    View view;
+    view.all = {{"layers", std::string("B1; a2; b.nrrd")},
+                {"layers.weights", sheet::NumberTable{{{0.5}, {0.25}}}}};
+    const PreparedTile b = prepare("B1", {});
+    const PreparedTile tile = prepare("A1", view);
+    ASSERT_TRUE(tile.spec && b.spec) << tile.message << b.message;
+    const LayersSpec& layers = tile.spec->layers;
+    EXPECT_EQ(layers.ownWeight, 0.5);
+    ASSERT_EQ(layers.volumes.size(), 3U);
+    const VolumeLayer& first = layers.volumes[0];
+    EXPECT_EQ(first.dataset, b.spec->dataset);
+    EXPECT_EQ(*first.transfer, *b.spec->transfer);
+    EXPECT_EQ(first.unitLengthWorld, 3.5);
+    EXPECT_EQ(first.floatTexels, FloatTexels::Half);
+    EXPECT_EQ(first.weight, 0.25);
+    EXPECT_EQ(layers.volumes[1].dataset, status(engine, "A2").meta->key);
+    EXPECT_EQ(layers.volumes[2].dataset, b.spec->dataset);
+    EXPECT_EQ(layers.volumes[2].unitLengthWorld, 1.0) << "a dataset by its name has the default look";
+    EXPECT_FALSE(*layers.volumes[2].transfer == *first.transfer);
+    EXPECT_EQ(layers.volumes[2].weight, 0.25) << "the last weight repeats";
+    const auto linked = prepare("B1", view);
+    ASSERT_TRUE(linked.spec) << linked.message;
+    EXPECT_EQ(linked.spec->layers.volumes.size(), 2U) << "a cell that names itself is not blended twice";
+    const auto bars = engine.colourBar("", {0, 0}, view).at("layers");
+    ASSERT_EQ(bars.size(), 3U);
+    EXPECT_EQ(bars[1].at("name"), "A2");
+    EXPECT_EQ(bars[1].at("weight"), 0.25);
+    EXPECT_EQ(volumesOf(*tile.spec, WantedPriority::Visible).size(), 4U);
+}
+
+TEST_F(EngineTest, LayersThatCannotBeBlendedSayWhy) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    const auto prepare = [&](const char* layers, const char* technique = "raycast") {
+        View view;
+        view.cells[{0, 0}] = {{"layers", std::string(layers)}, {"technique", std::string(technique)}};
+        return engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {});
+    };
+    for (const char* layers : {"B1", "C9", "nothing", "Sheet9!A1", "B1;;", "B1;B1;B1;B1"}) {
+        const auto tile = prepare(layers);
+        EXPECT_EQ(tile.code, "#REF!") << layers;
+        EXPECT_NE(tile.message.find("layers"), std::string::npos) << tile.message;
+    }
+    for (const char* technique : {"slices", "mip", "surface", "isosurface"}) {
+        const auto tile = prepare("a.nrrd", technique);
+        EXPECT_EQ(tile.code, "#TYPE!") << technique;
+        EXPECT_NE(tile.message.find("layers"), std::string::npos) << tile.message;
+        EXPECT_NE(tile.message.find("raycast"), std::string::npos) << tile.message;
+        EXPECT_TRUE(prepare("A1", technique).spec) << "the cell alone is nothing to blend";
+    }
+    setSource(engine, "B1", "=A1+nonsense");
+    EXPECT_EQ(prepare("B1").code, "#NAME?");
+    setSource(engine, "B1", "=C1");
+    setSource(engine, "C1", "=B1");
+    EXPECT_EQ(prepare("B1").code, "#CYCLE!");
 }
 
 TEST_F(EngineTest, TheColourBarMarksTheSurfacesAndExplainsWhatColoursThem) {

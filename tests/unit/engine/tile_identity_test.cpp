@@ -160,6 +160,37 @@ TEST(TileIdentity, IsosurfacesCountWhereTheyAreShown) {
     expectNoneDiffers(rays, {[](TileSpec& s) { s.isosurface = {}; }});
 }
 
+TEST(TileIdentity, LayersCount) {
+    TileSpec fused = tile();
+    fused.technique = Technique::Raycast;
+    VolumeLayer layer;
+    layer.dataset = "other";
+    layer.transfer = fused.transfer;
+    fused.layers.volumes = {layer};
+    expectAllDiffer(fused, {
+                               [](TileSpec&) {},
+                               [](TileSpec& s) { s.layers.volumes.clear(); },
+                               [](TileSpec& s) { s.layers.volumes.push_back(s.layers.volumes[0]); },
+                               [](TileSpec& s) { s.layers.ownWeight = 0.5; },
+                               [](TileSpec& s) { s.layers.volumes[0].dataset = "third"; },
+                               [](TileSpec& s) { s.layers.volumes[0].field = 1; },
+                               [](TileSpec& s) { s.layers.volumes[0].step = 1; },
+                               [](TileSpec& s) { s.layers.volumes[0].level = 1; },
+                               [](TileSpec& s) { s.layers.volumes[0].weight = 0.5; },
+                               [](TileSpec& s) { s.layers.volumes[0].unitLengthWorld = 7; },
+                               [](TileSpec& s) { s.layers.volumes[0].floatTexels = FloatTexels::Half; },
+                               [](TileSpec& s) {
+                                   TransferTable table = *s.layers.volumes[0].transfer;
+                                   table.entries[1].w = 0.3F;
+                                   s.layers.volumes[0].transfer =
+                                       std::make_shared<const TransferTable>(table);
+                               },
+                           });
+    TileSpec alone = tile();
+    alone.technique = Technique::Raycast;
+    expectNoneDiffers(alone, {[](TileSpec& s) { s.layers.ownWeight = 0.5; }});
+}
+
 TEST(TileIdentity, WhatTheTechniqueDoesNotUseDoesNotCount) {
     const Change opacity = [](TileSpec& s) {
         TransferTable table = *s.transfer;

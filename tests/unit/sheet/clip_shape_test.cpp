@@ -52,5 +52,16 @@ TEST(ClipShape, NamesOfVolumes) {
               "isosurface.colorBy");
 }
 
+TEST(LayerNames, AreSeparatedBySemicolons) {
+    EXPECT_EQ(parseLayers("b1"), (std::vector<VolumeName>{SheetAddress{"", {1, 0}}}));
+    EXPECT_EQ(parseLayers(" B1; run 2 ;'a;b'"),
+              (std::vector<VolumeName>{SheetAddress{"", {1, 0}}, std::string("run 2"), std::string("a;b")}));
+    for (const char* text : {"", ";", "B1;", "B1;;C1", "A1;B1;C1;D1", "''"}) {
+        const auto error = caught<InvalidInput>([&] { (void)parseLayers(text); });
+        EXPECT_EQ(error.field(), "layers") << text;
+        EXPECT_FALSE(error.toDo().empty()) << text;
+    }
+}
+
 } // namespace
 } // namespace voxsheet::sheet

@@ -198,6 +198,8 @@ TEST(Style, LooksInsideAreTyped) {
                                                  {"isosurface.colors", {"#ff0000"}},
                                                  {"isosurface.opacity", {1, 0.25}},
                                                  {"isosurface.colorBy", "B1"},
+                                                 {"layers", "B1; run 2"},
+                                                 {"layers.weights", {0.5, 1}},
                                                  {"clip.planes", {{1, 0, 0, 0.5}, {0, 2, 0, 0.1}}},
                                                  {"clip.box", {0, 1, 0.25, 0.75, 0.5, 1}},
                                                  {"clip.units", "world"},
@@ -217,6 +219,7 @@ TEST(Style, LooksInsideAreTyped) {
     EXPECT_EQ(style.isosurface.colours.size(), 1U);
     EXPECT_EQ(style.isosurface.opacities, (std::vector<double>{1.0, 0.25}));
     EXPECT_EQ(style.isosurface.colourBy, "B1");
+    EXPECT_EQ(style.layers, (LayersStyle{"B1; run 2", {0.5, 1.0}}));
     ASSERT_EQ(style.clip.planes.size(), 2U);
     EXPECT_EQ(style.clip.planes[1], (ClipStyle::Plane{{0, 2, 0}, 0.1}));
     ASSERT_TRUE(style.clip.box.has_value());

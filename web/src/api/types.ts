@@ -203,6 +203,18 @@ export interface ColourBarInfo {
     /** Where another volume colours the surfaces: that one's bar. */
     colouredBy?: ColourBarInfo | null;
     ticks: ColourBarTick[];
+    /** Volumes that are blended into the picture. */
+    layers?: LayerBar[];
+}
+
+export interface LayerBar {
+    name: string;
+    weight: number;
+    stops: [number, number, number, number, number][];
+    low: number;
+    high: number;
+    scale: string;
+    unit?: string;
 }
 
 export interface ProbeAnswer {

@@ -1,5 +1,5 @@
 // Which colour means which value: in each tile, or once in the column's header where the range is shared.
-import type { ColourBarInfo } from "../api/types";
+import type { ColourBarInfo, LayerBar } from "../api/types";
 import { formatNumber, formatUnit, withUnit } from "../model/format";
 import { isovalueHandles, isovaluesOf } from "../model/isovalues";
 import type { Scale } from "../model/transfer";
@@ -14,7 +14,7 @@ export function gradient(stops: readonly (readonly number[])[], towards: string)
     return `linear-gradient(${towards}, ${colours.join(", ")})`;
 }
 
-export function describeRange(bar: ColourBarInfo): string {
+export function describeRange(bar: Pick<ColourBarInfo, "low" | "high" | "unit" | "scale">): string {
     const scale = bar.scale && bar.scale !== "linear" ? `, ${bar.scale}` : "";
     return withUnit(`${formatNumber(bar.low)} to ${formatNumber(bar.high)}`, bar.unit) + scale;
 }
@@ -44,18 +44,39 @@ export function ColourBar({ cell }: { cell: string }) {
         return annotations === undefined || annotations === "all";
     });
     const enlarged = useSelect((state) => state.page.enlarged === cell);
-    if (!own || !bar || !shown || (bar.shared && !enlarged)) return null;
+    if (!own || !bar || !shown) return null;
+    const layers = <LayerBars layers={own.layers ?? []} />;
+    if (bar.shared && !enlarged) return layers;
     return (
-        <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
-            <span class="bar-unit">{[bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ")}</span>
-            <div class="bar-scale" style={{ background: gradient(bar.stops, "to top") }}>
-                {bar.ticks.map((tick) => (
-                    <span key={tick.label} style={{ bottom: `${100 * tick.pos}%` }}>
-                        {tick.label}
-                    </span>
-                ))}
-                {bar === own && <IsovalueMarks cell={cell} bar={own} />}
+        <>
+            {layers}
+            <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
+                <span class="bar-unit">{[bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ")}</span>
+                <div class="bar-scale" style={{ background: gradient(bar.stops, "to top") }}>
+                    {bar.ticks.map((tick) => (
+                        <span key={tick.label} style={{ bottom: `${100 * tick.pos}%` }}>
+                            {tick.label}
+                        </span>
+                    ))}
+                    {bar === own && <IsovalueMarks cell={cell} bar={own} />}
+                </div>
             </div>
+        </>
+    );
+}
+
+/** What is blended into the picture, and which colours it has. */
+function LayerBars({ layers }: { layers: readonly LayerBar[] }) {
+    if (layers.length === 0) return null;
+    return (
+        <div class="layer-bars">
+            <span>fused with</span>
+            {layers.map((layer, index) => (
+                <span key={index} role="img" aria-label={`Colour bar of layer ${layer.name}: ${describeRange(layer)}`} title={describeRange(layer)}>
+                    {layer.name}
+                    <i style={{ background: gradient(layer.stops, "to right") }} />
+                </span>
+            ))}
         </div>
     );
 }

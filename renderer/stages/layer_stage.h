@@ -1,0 +1,38 @@
+// Volumes blended with the drawn one, as the shaders read them (layers.glsl).
+#pragma once
+
+#include "gpu/program.h"
+#include "gpu/shader_source.h"
+#include "residency/residency_manager.h"
+#include "stages/classification.h"
+#include "stages/empty_space.h"
+#include "stages/tile_spec.h"
+
+#include <span>
+
+namespace voxsheet {
+
+/// Throws InvalidInput (field `layers` or `layers.weights`) if there are too many, a layer is out of the
+/// ranges stated in VolumeLayer, or the technique cannot blend them.
+void validateLayers(const TileSpec& tile);
+
+class LayerStage {
+public:
+    static constexpr GLuint volumeUnit = 7; ///< of the first; the others follow
+    static constexpr GLuint tableUnit = 10; ///< likewise
+    static constexpr GLuint cellsUnit = 13; ///< likewise
+
+    /// \param layers        resident, in the tile's order
+    /// \param filterFloats  the shader interpolates 32-bit floats itself
+    [[nodiscard]] static gpu::ShaderDefines
+    defines(const TileSpec& tile, std::span<const ResidentVolume* const> layers, bool filterFloats);
+    static void bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
+                     std::span<const ResidentVolume* const> layers, ClassificationStage& classification);
+    /// Where they can show something.
+    /// \param stretchVoxels  length of the stretches that are looked up, in voxels of the drawn level
+    static void bindOccupied(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
+                             std::span<const ResidentVolume* const> layers, double stretchVoxels,
+                             EmptySpaceStage& emptySpace);
+};
+
+} // namespace voxsheet
