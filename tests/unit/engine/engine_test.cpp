@@ -430,6 +430,7 @@ TEST_F(EngineTest, LayersLookAsTheirOwnCellsDo) {
     engine.importDatasets(
         {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {40, 40, 40}, 20))});
     ASSERT_TRUE(engine.waitIdle(60));
+    engine.apply(sheet::InsertLines{"Sheet1", sheet::Axis::Rows, 1, 1});
     setSource(engine, "A2", "=B1*2");
     ASSERT_TRUE(engine.waitIdle(60));
     engine.apply(sheet::SetStyle{"Sheet1",
@@ -475,6 +476,7 @@ TEST_F(EngineTest, LayersThatCannotBeBlendedSayWhy) {
     Engine engine(options());
     engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
     ASSERT_TRUE(engine.waitIdle(60));
+    engine.apply(sheet::InsertLines{"Sheet1", sheet::Axis::Columns, 1, 2});
     const auto prepare = [&](const char* layers, const char* technique = "raycast") {
         View view;
         view.cells[{0, 0}] = {{"layers", std::string(layers)}, {"technique", std::string(technique)}};
