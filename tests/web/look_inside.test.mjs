@@ -64,8 +64,8 @@ test("another cell is fused into the pictures, which say so", async () => {
     await settled(page, cells);
     assert.deepEqual(changed(await looks(), alone), ["A1", "C1"], "B1 itself is not blended twice");
     await page.locator('[data-picture-of="A1"] .layer-bars', { hasText: "B1" }).waitFor();
-    await undo();
-    await waitForStyle(page, "A1", "layers", "B1");
+    await page.locator('[data-key="layers"] .reset').click();
+    await waitForOrigin(page, "layers", "default");
     await settled(page, cells);
     assert.deepEqual(await looks(), alone);
 });
