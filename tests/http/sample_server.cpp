@@ -1,5 +1,6 @@
 #include "sample_server.h"
 
+#include "fields/patience.h"
 #include "http/route/problem.h"
 #include "raw_client.h"
 
@@ -25,9 +26,10 @@ Response text(std::string body) { return {200, "text/plain", std::move(body)}; }
 http::ServerOptions SampleServer::quickOptions() {
     http::ServerOptions options;
     options.port = 0;
-    options.headSeconds = 1.0;
-    options.idleSeconds = 20.0;
-    options.stallSeconds = 1.0;
+    const double patience = fields::patience(); // honest clients of a busy machine are slow too
+    options.headSeconds = 1.0 * patience;
+    options.idleSeconds = 20.0 * patience;
+    options.stallSeconds = 1.0 * patience;
     return options;
 }
 

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <list>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -139,16 +140,19 @@ TEST(ServerAbuse, TwoThousandConnectsAtOnce) {
     constexpr int kClients = 2000;
     if (voxsheet::http::raiseOpenFileLimit(2 * kClients + 500) < 2 * kClients + 400)
         GTEST_SKIP() << "the limit of open files is too low here";
-    SampleServer server;
+    auto options = SampleServer::quickOptions();
+    options.headSeconds = 30.0;     // the first client sends after the last one has connected
+    options.queueLength = kClients; // else those that a busy machine lets wait are refused, rightly
+    SampleServer server(options);
     std::list<RawClient> clients;
     for (int i = 0; i < kClients; ++i)
         clients.emplace_back(server.port(), 20.0);
     for (auto& client : clients)
         client.send(getRequest("/quick"));
-    int served = 0;
+    std::map<int, int> answers; // by status; 0: none
     for (auto& client : clients)
-        served += statusOfResponse(client.readAll(20.0)) == 200 ? 1 : 0;
-    EXPECT_EQ(served, kClients);
+        ++answers[statusOfResponse(client.readAll(20.0))];
+    EXPECT_EQ(answers, (std::map<int, int>{{200, kClients}}));
 }
 
 TEST(ServerAbuse, IdleConnectionsStarveNobody) {
