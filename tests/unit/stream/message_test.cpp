@@ -9,7 +9,8 @@ namespace {
 TEST(Message, ComesBackAsItWas) {
     const std::string payload("\0\x01\xff bytes", 9);
     const auto bytes = frameMessage({{"type", "tile"}, {"seq", 7}}, payload);
-    const auto message = parseMessage(bytes + "next");
+    const auto received = bytes + "next"; // the payload is a part of it
+    const auto message = parseMessage(received);
     EXPECT_EQ(message.bytes, bytes.size());
     EXPECT_EQ(message.header["seq"], 7);
     EXPECT_EQ(message.payload, payload);
