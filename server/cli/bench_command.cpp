@@ -1,6 +1,7 @@
 #include "base/errors.h"
 #include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
+#include "cli/bench/edit_bench.h"
 #include "cli/bench/http_bench.h"
 #include "cli/bench/stream_bench.h"
 #include "cli/bench/time_n_command.h"
@@ -70,6 +71,22 @@ Action addHttp(CLI::App& app) {
     return withOutput(app, [options] { return runHttpBench(*options); });
 }
 
+Action addEdit(CLI::App& app) {
+    auto options = std::make_shared<EditBenchOptions>();
+    app.add_option("--cells", options->cells, "Number of cells (25)")->check(CLI::Range(1, 256));
+    app.add_option("--dim", options->dim, "Samples per edge of each volume (128)")
+        ->check(CLI::Range(16, 512));
+    app.add_option("--width", options->width, "Width of each tile in pixels (256)")
+        ->check(CLI::Range(16, 4096));
+    app.add_option("--height", options->height, "Height of each tile in pixels (256)")
+        ->check(CLI::Range(16, 4096));
+    app.add_option("--repeats", options->repeats, "Edits of either kind, of which the median counts (21)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    app.footer("Example: voxsheet bench edit --json");
+    return withOutput(app, [options] { return runEditBench(*options); });
+}
+
 Action addVolume(CLI::App& app) {
     auto options = std::make_shared<bench::VolumeBenchOptions>();
     auto type = std::make_shared<std::string>("u8");
@@ -114,6 +131,8 @@ Action addBench(CLI::App& app) {
     };
     add("volume", "Time and quality of every volume rendering technique on one volume", &addVolume);
     add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
+    add("edit", "Time from an edit to the final pictures: one dirty cell against a whole dirty sheet",
+        &addEdit);
     add("http", "Requests per second and their latency over loopback", &addHttp);
     add("time-n", "Rendering time over the number of datasets, with dynamic resolution or without",
         &addTimeN);

@@ -46,4 +46,7 @@ if(TARGET voxsheet)
     add_test(NAME bench.http COMMAND voxsheet bench http --clients 1,3 --seconds 0.1 --dim 16 --width 32 --height 32 --json)
     set_tests_properties(bench.http PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"latency_ms_p99\".*\"route\": \"image_drawn\"")
+    add_test(NAME bench.edit COMMAND voxsheet bench edit --cells 4 --dim 16 --width 32 --height 32 --repeats 2 --json)
+    set_tests_properties(bench.edit PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"all_ms\": .*\"dirty_ms\": .*\"ratio\": ")
 endif()
