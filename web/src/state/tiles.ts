@@ -6,7 +6,7 @@ export interface TileInfo {
     scale: number;
     final: boolean;
     renderMs: number;
-    /** Why a coarser level than asked for is as good as it gets; else empty. */
+    /** What a user should know about the last final picture, e.g. why it is coarser than asked for; else empty. */
     note: string;
     state: "ok" | "importing" | "error" | "empty";
     code: string;

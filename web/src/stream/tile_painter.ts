@@ -120,8 +120,9 @@ export class TilePainter {
             scale: numberOf(header["scale"], 1),
             final: header["final"] === true,
             renderMs: numberOf(header["renderMs"]),
-            note: String(header["note"] ?? ""),
         };
+        // What holds for the picture at rest stays through the coarse ones of a gesture.
+        if (info.final) info.note = String(header["note"] ?? "");
         this.pending[cell] = info;
         this.statistics.add({
             seq: numberOf(header["seq"]),

@@ -13,6 +13,7 @@ import { useApp, useSelect } from "./app_context";
 import { ClipHandles } from "./clip/ClipHandles";
 import { ColourBar } from "./ColourBar";
 import { LevelBadge } from "./levels/LevelBadge";
+import { NoteMark } from "./NoteMark";
 import { OrientationMarks } from "./OrientationMarks";
 import { PictureGestures } from "../input/picture_gestures";
 
@@ -162,6 +163,7 @@ export function Tile({ address }: { address: Address }) {
                         <Link2Off size={12} aria-hidden="true" />
                     </button>
                 )}
+                {drawn && tile.painted && <NoteMark cell={name} />}
                 {drawn && tile.painted && <LevelBadge cell={name} />}
             </div>
             <div

@@ -10,7 +10,6 @@ const levelsOffered = 5;
 export function LevelBadge({ cell }: { cell: string }) {
     const app = useApp();
     const level = useSelect((state) => state.tiles[cell]?.level ?? newTile.level);
-    const note = useSelect((state) => state.tiles[cell]?.note ?? "");
     const pinned = useSelect((state) => {
         const value = cellOf(currentSheet(state.book), cell)?.style["level"]?.value;
         return typeof value === "number" ? value : null;
@@ -25,7 +24,7 @@ export function LevelBadge({ cell }: { cell: string }) {
         })),
         { label: "Levels and timings …", onChoose: () => app.levels.show() },
     ];
-    const why = note || (pinned !== null ? "pinned" : "chosen by the sheet's policy");
+    const why = pinned !== null ? "pinned" : "chosen by the sheet's policy";
     return (
         <Menu class="level-badge" label={`Level of detail of ${cell}: ${level}, ${why}`} items={items}>
             <span data-level={level}>
