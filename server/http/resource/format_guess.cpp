@@ -71,6 +71,19 @@ bool isChgcar(const std::string& head) {
     return true;
 }
 
+/// VolVis: the magic number, three sizes and the bits per voxel, as text.
+bool isSlc(const std::string& head) {
+    if (!head.starts_with("11111")) return false;
+    std::istringstream words(head);
+    std::string magic;
+    std::int64_t number = 0;
+    words >> magic;
+    for (int i = 0; i < 4; ++i)
+        words >> number;
+    const int next = words.peek();
+    return magic == "11111" && !words.fail() && next != EOF && std::isspace(next) != 0;
+}
+
 bool isMetaImage(std::string_view head) {
     const auto firstLine = head.substr(0, head.find('\n'));
     return firstLine.starts_with("ObjectType") || firstLine.starts_with("NDims") ||
@@ -108,6 +121,7 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
                                                                         : std::nullopt;
     if (const auto mesh = meshFormat(file, text)) return mesh;
     if (isMetaImage(text)) return "metaimage";
+    if (isSlc(head)) return "slc";
     if (isChgcar(head)) return "chgcar";
     if (file.extension() == ".json" && text.find("\"dims\"") != std::string_view::npos) return "raw";
     return std::nullopt;

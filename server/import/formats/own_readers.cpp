@@ -7,6 +7,7 @@
 #include "import/formats/nifti_reader.h"
 #include "import/formats/nrrd_reader.h"
 #include "import/formats/raw_reader.h"
+#include "import/formats/slc_reader.h"
 
 namespace voxsheet::import {
 
@@ -40,6 +41,7 @@ std::vector<std::unique_ptr<SourceReader>> makeOwnReaders() {
     readers.push_back(std::make_unique<NrrdReader>());
     readers.push_back(std::make_unique<MetaImageReader>());
     readers.push_back(std::make_unique<NiftiReader>());
+    readers.push_back(std::make_unique<SlcReader>());
     readers.push_back(std::make_unique<ChgcarReader>());
     readers.push_back(std::make_unique<RawReader>());
     return readers;

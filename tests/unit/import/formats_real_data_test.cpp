@@ -53,6 +53,14 @@ TEST_F(FormatsRealData, MetaImages) {
     EXPECT_EQ(spacingWorld(small.meta().grid), glm::dvec3(4));
 }
 
+TEST_F(FormatsRealData, VolVisSlices) {
+    const auto potential = load(file("vol_neghip/neghip.slc"));
+    EXPECT_EQ(potential.meta().grid.dims, glm::ivec3(66));
+    EXPECT_EQ(potential.meta().sourceType, ScalarType::U8);
+    EXPECT_EQ(potential.values<unsigned char>()[0], 0); // 64^3 samples in a frame of zeros
+    EXPECT_EQ(summary(potential).high, 255);
+}
+
 TEST_F(FormatsRealData, SlicesInManyFiles) {
     const auto head = load(file("vol_headsq_quarter/quarter.nhdr"));
     EXPECT_EQ(head.meta().grid.dims, glm::ivec3(64, 64, 93));
