@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { Book, columnName, keys, maps } from "./mock_book.mjs";
+import { Levels } from "./mock_levels.mjs";
 import { picture } from "./mock_pictures.mjs";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
@@ -21,6 +22,7 @@ const datasetOf = (name, i) => ({
 });
 const datasets = Array.from({ length: cellCount }, (_, i) => datasetOf(`run${i + 1}.nrrd`, i));
 const book = new Book(datasets.map((dataset) => dataset.name), Math.max(1, Math.ceil(Math.sqrt(cellCount))));
+const levels = new Levels();
 if (cellCount > 4) {
     book.doc.sources.C1 = "=B1-A1";
     book.doc.sources.B2 = "=B1-Z9";
@@ -244,6 +246,14 @@ async function api(request, response, url) {
     const [, , what, name, leaf] = parts;
     if (what === "stream") return openStream(request, response);
     if (what === "probe") return json(response, { world: [1, 2, 3], values: book.cells().map((cell, i) => ({ cell, value: 12.5 * i, unit: "HU" })) });
+    if (what === "timings") {
+        const timings = levels.timings(book.cells().length);
+        return json(response, request.method === "POST" ? { ...timings, measured: { n: timings.n, frames: 5 * timings.n, stopped_early: false, warning: null } } : timings);
+    }
+    if (what === "resolution") {
+        const refused = request.method === "PATCH" ? levels.change(await body()) : null;
+        return refused ? problem(response, 400, refused.detail, refused.field) : json(response, levels.settings);
+    }
     if (leaf === "colourbar") return json(response, colourBar(name));
     if (request.method === "PATCH" && what === undefined) {
         const { columns } = await body();

@@ -46,6 +46,25 @@ TEST(WorkbookJson, RoundTripIsExact) {
     EXPECT_TRUE(text.starts_with("{\n  \"voxsheet\": 1")) << "says first what it is";
 }
 
+TEST(WorkbookJson, LayersAndTheirWeightsSurviveOnEveryStyleLayer) {
+    Workbook book = filledWorkbook(3, 2);
+    Sheet& sheet = book.sheets[0];
+    const auto fused = [](const std::string& layers, const NumberTable& weights) {
+        return StyleMap{{"layers", layers}, {"layers.weights", weights}};
+    };
+    sheet.style = fused("B1", NumberTable{{{1.0}, {1.0 / 3.0}}});
+    sheet.columnHeaders[1] = {"", {{"layers", None{}}}};
+    sheet.rowHeaders[1] = {"", fused("A1; Other!B2", NumberTable{{{0.1}, {0.0}, {1.0}}})};
+    sheet.cells.at({0, 0}).style = fused("d2; A2; 'run; 3'", NumberTable{{{0.25}, {0.5}, {0.75}, {1e-9}}});
+    const Workbook read = parseWorkbook(serialiseWorkbook(book), testKeys());
+    EXPECT_EQ(read, book);
+    EXPECT_EQ(read.sheets[0].cells.at({0, 0}).style.at("layers.weights"),
+              StyleValue(NumberTable{{{0.25}, {0.5}, {0.75}, {1e-9}}}));
+    EXPECT_EQ(resolveStyle(testKeys(), read.sheets[0], {0, 1}).style.layers.weights,
+              (std::vector<double>{0.1, 0.0, 1.0}));
+    EXPECT_EQ(resolveStyle(testKeys(), read.sheets[0], {1, 0}).style.layers.volumes, "");
+}
+
 TEST(WorkbookJson, EveryKeysDefaultSurvives) {
     Workbook book = filledWorkbook(1, 1);
     for (const KeySpec& key : testKeys().keys())
