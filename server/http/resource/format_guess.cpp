@@ -52,22 +52,42 @@ bool isNifti(std::string_view head) {
     return head.substr(4, 3) == "n+2" || head.substr(4, 3) == "ni2";
 }
 
+/// How many numbers the line holds; -1 if it holds anything else.
+int countNumbers(std::string line) {
+    std::replace(line.begin(), line.end(), 'D', 'E'); // Fortran's exponents
+    std::istringstream in(line);
+    double value = 0.0;
+    int count = 0;
+    while (in >> value)
+        ++count;
+    return in.eof() ? count : -1;
+}
+
 /// CHGCAR family: a comment, a scale, three lattice vectors.
 bool isChgcar(const std::string& head) {
     std::istringstream lines(head);
     std::string line;
     if (!std::getline(lines, line) || !std::getline(lines, line)) return false;
-    const auto numbers = [](const std::string& text) {
-        std::istringstream in(text);
-        double value = 0.0;
-        int count = 0;
-        while (in >> value)
-            ++count;
-        return in.eof() ? count : -1;
-    };
-    if (numbers(line) != 1) return false;
+    if (countNumbers(line) != 1) return false;
     for (int i = 0; i < 3; ++i)
-        if (!std::getline(lines, line) || numbers(line) != 3) return false;
+        if (!std::getline(lines, line) || countNumbers(line) != 3) return false;
+    return true;
+}
+
+/// Gaussian cube: two comments, atoms' number and origin (and values a voxel), three numbers of voxels with
+/// vectors; a whole number begins each.
+bool isCube(const std::string& head) {
+    std::istringstream lines(head);
+    std::string line;
+    if (!std::getline(lines, line) || !std::getline(lines, line)) return false;
+    for (int i = 0; i < 4; ++i) {
+        if (!std::getline(lines, line)) return false;
+        const int count = countNumbers(line);
+        if (count != 4 && !(i == 0 && count == 5)) return false;
+        std::string first;
+        std::istringstream(line) >> first;
+        if (first.find_first_not_of("+-0123456789") != std::string::npos) return false;
+    }
     return true;
 }
 
@@ -122,6 +142,7 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
     if (const auto mesh = meshFormat(file, text)) return mesh;
     if (isMetaImage(text)) return "metaimage";
     if (isSlc(head)) return "slc";
+    if (isCube(head)) return "cube";
     if (isChgcar(head)) return "chgcar";
     if (file.extension() == ".json" && text.find("\"dims\"") != std::string_view::npos) return "raw";
     return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "import/formats/elements.h"
+#include "import/formats/grid_text.h"
 #include "import/formats/number_text.h"
 
 #include <algorithm>
@@ -13,19 +14,6 @@ namespace voxsheet::import {
 namespace {
 
 constexpr std::int64_t kMostAtoms = 10'000'000;
-
-/// The first three words as numbers; what follows (selective flags) is free.
-std::optional<glm::dvec3> leadingVector(std::string_view line) {
-    const auto words = splitWords(line);
-    if (words.size() < 3) return std::nullopt;
-    glm::dvec3 vector;
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-        const auto number = parseFortranNumber(words[static_cast<std::size_t>(axis)]);
-        if (!number || !std::isfinite(*number)) return std::nullopt;
-        vector[axis] = *number;
-    }
-    return vector;
-}
 
 std::optional<std::vector<std::int64_t>> atomCounts(std::string_view line) {
     const auto words = splitWords(line);

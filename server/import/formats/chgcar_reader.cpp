@@ -4,7 +4,7 @@
 #include "import/formats/chgcar_header.h"
 #include "import/formats/field_names.h"
 #include "import/formats/geometry.h"
-#include "import/formats/number_text.h"
+#include "import/formats/grid_text.h"
 #include "import/formats/voxel_plan.h"
 
 #include <cmath>
@@ -19,46 +19,6 @@ struct ChgcarPlan {
     int grids = 0;
 };
 
-TextScanner openText(const InputFile& file) {
-    return {openStream(file, 0, compressionOf(file.textAt(0, 4))), file.name()};
-}
-
-/// VASP writes a grid in lines of equal length. When a look at the first and at lines spread over the grid
-/// confirms this, all but the last line is passed over unread: files can be gigabytes, and readData looks at
-/// every value anyway. Returns the number of values passed.
-std::uint64_t jumpOverEqualLines(const InputFile& file, TextScanner& text, std::uint64_t values) {
-    constexpr std::uint64_t worthwhile = 1'000'000;
-    constexpr std::uint64_t probes = 64;
-    const auto start = text.position();
-    const auto first = file.textAt(start, 1024);
-    const auto length = first.find('\n') + 1;
-    if (values < worthwhile || length == 0) return 0;
-    const auto perLine = splitWords(first.substr(0, length)).size();
-    if (perLine == 0) return 0;
-    const auto lines = values / perLine - 1;
-    if (start + lines * length > file.bytes()) return 0;
-    for (std::uint64_t probe = 0; probe <= probes; ++probe) {
-        const auto line = file.textAt(start + (lines - 1) * probe / probes * length, length);
-        if (line.find('\n') + 1 != length || splitWords(line).size() != perLine) return 0;
-    }
-    text.skipBytes(lines * length);
-    return lines * perLine;
-}
-
-/// Passes over the values of a grid. Throws InvalidInput when there are too few.
-void skipGrid(const InputFile& file, TextScanner& text, std::uint64_t values, int grid) {
-    std::uint64_t found = 0;
-    if (compressionOf(file.textAt(0, 4)) == Compression::None) found = jumpOverEqualLines(file, text, values);
-    constexpr std::uint64_t widestValueBytes = 64;
-    constexpr std::uint64_t slackBytes = 1U << 20;
-    found += text.skipWords(values - found, (values - found) * widestValueBytes + slackBytes);
-    if (found < values)
-        throw InvalidInput(file.name(),
-                           "grid " + std::to_string(grid) + " needs " + std::to_string(values) +
-                               " values, the file ends after " + std::to_string(found),
-                           "copy the file again, or let the calculation finish");
-}
-
 /// Number of grids; the first grid's dimension line has been read.
 int countGrids(const InputFile& file, TextScanner& text, const glm::ivec3& dims,
                const ChgcarStructure& structure, std::vector<std::string>& notes) {
@@ -67,7 +27,7 @@ int countGrids(const InputFile& file, TextScanner& text, const glm::ivec3& dims,
     int grids = 0;
     bool newFrame = false;
     do {
-        skipGrid(file, text, values, ++grids);
+        skipGrid(file, text, values, "grid " + std::to_string(++grids));
         if (grids == mostGrids)
             throw Unsupported(file.name(), "it holds more than " + std::to_string(mostGrids) + " grids");
     } while (findChgcarGrid(text, dims, structure.firstLine, newFrame));
@@ -102,24 +62,12 @@ void describeFields(const ChgcarKind& kind, int grids, const ImportOptions& opti
 void readGrid(TextScanner& text, const std::string& name, std::span<std::byte> array,
               const std::function<void(double)>& progress) {
     constexpr std::size_t progressEvery = 65536;
-    const auto values = array.size() / sizeof(double);
-    std::size_t width = 0;
-    for (std::size_t index = 0; index < values; ++index) {
-        const auto word = text.word();
-        if (word.empty())
-            throw InvalidInput(name, "it ends after " + std::to_string(index) + " of " +
-                                         std::to_string(values) + " values");
-        const auto value = parseFortranNumber(word);
-        if (!value)
-            throw InvalidInput(name, "it holds '" + printable(word) + "' where value " +
-                                         std::to_string(index + 1) + " of a grid should be");
-        const bool last = index + 1 == values;
-        if (last && word.size() < width && text.atEnd()) // VASP ends lines, and its numbers are equally wide
-            throw InvalidInput(name, "it ends within the last value of a grid", "copy the file again");
-        width = word.size();
-        std::memcpy(array.data() + index * sizeof(double), &*value, sizeof(double));
-        if (progress && index % progressEvery == 0)
-            progress(static_cast<double>(index) / static_cast<double>(values));
+    const auto count = array.size() / sizeof(double);
+    GridValues values(text, name, count);
+    for (std::size_t index = 0; index < count; ++index) {
+        const double value = values.next();
+        std::memcpy(array.data() + index * sizeof(double), &value, sizeof(double));
+        if (progress && index % progressEvery == 0) progress(values.fraction());
     }
 }
 
@@ -142,11 +90,7 @@ SourceHeader ChgcarReader::readHeader(const std::filesystem::path& path, const I
     if (!dims)
         throw InvalidInput(name, "it holds a structure but no grid", "open a CHGCAR, LOCPOT or similar file");
     const auto bytes = checkedBytes(name, {dims->x, dims->y, dims->z}, sizeof(double), limits);
-    const auto longest = largestDecompressedBytes(file.bytes(), compressionOf(file.textAt(0, 4)));
-    if (bytes / sizeof(double) > longest / 2 + 1) // a digit and a blank each
-        throw InvalidInput(name, "its grid of " + std::to_string(bytes / sizeof(double)) +
-                                     " values cannot be in a file of " + std::to_string(file.bytes()) +
-                                     " bytes");
+    checkTextHolds(file, bytes / sizeof(double));
 
     SourceHeader source;
     auto& meta = source.meta;

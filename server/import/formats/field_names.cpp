@@ -2,6 +2,8 @@
 
 #include "base/errors.h"
 
+#include <set>
+
 namespace voxsheet::import {
 
 std::vector<FieldMeta> makeFields(int count, ScalarType type, const std::vector<std::string>& names) {
@@ -25,6 +27,17 @@ void checkFieldsAndSteps(const std::string& what, std::int64_t fields, std::int6
     if (steps > mostSteps)
         throw LimitExceeded(what, "it has " + std::to_string(steps) + " time steps, more than " +
                                       std::to_string(mostSteps));
+}
+
+std::vector<std::string> uniqueNames(std::vector<std::string> names) {
+    std::set<std::string> used;
+    for (auto& name : names) {
+        if (name.empty()) name = "value";
+        const auto base = name;
+        for (int copy = 2; !used.insert(name).second; ++copy)
+            name = base + " (" + std::to_string(copy) + ")";
+    }
+    return names;
 }
 
 } // namespace voxsheet::import

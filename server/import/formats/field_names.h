@@ -16,4 +16,7 @@ namespace voxsheet::import {
 /// Throws LimitExceeded (subject `what`) above the number of fields or steps that a dataset may have.
 void checkFieldsAndSteps(const std::string& what, std::int64_t fields, std::int64_t steps);
 
+/// The same names, the second and later equal ones with " (2)", " (3)", …; empty ones are "value".
+[[nodiscard]] std::vector<std::string> uniqueNames(std::vector<std::string> names);
+
 } // namespace voxsheet::import

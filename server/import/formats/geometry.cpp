@@ -38,4 +38,13 @@ void checkSpacing(const std::string& what, const std::vector<double>& spacing) {
                                "correct the spacing in the header");
 }
 
+void checkSpanSpace(const std::string& what, const char* vectors, const AxisColumns& columns) {
+    const double volume = std::abs(glm::determinant(glm::dmat3(columns[0], columns[1], columns[2])));
+    const double box = glm::length(columns[0]) * glm::length(columns[1]) * glm::length(columns[2]);
+    if (!std::isfinite(box) || !(volume > 1e-9 * box)) // as validateGrid
+        throw InvalidInput(
+            what, std::string("its ") + vectors + " do not span space (one is zero, or they lie in a plane)",
+            "correct them in the file");
+}
+
 } // namespace voxsheet::import

@@ -23,4 +23,8 @@ void completeAxes(AxisColumns& columns, int count);
 /// Throws InvalidInput (subject `what`) unless every number is finite and not 0.
 void checkSpacing(const std::string& what, const std::vector<double>& spacing);
 
+/// Throws InvalidInput (subject `what`) unless the columns are finite and span space; `vectors` names them
+/// ("voxel vectors").
+void checkSpanSpace(const std::string& what, const char* vectors, const AxisColumns& columns);
+
 } // namespace voxsheet::import

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "import/formats/byte_stream.h"
 #include "import/formats/chgcar_reader.h"
+#include "import/formats/cube_reader.h"
 #include "import/formats/metaimage_reader.h"
 #include "import/formats/nifti_reader.h"
 #include "import/formats/nrrd_reader.h"
@@ -37,11 +38,13 @@ std::string inflatedHead(const InputFile& file, Compression compression) {
 
 std::vector<std::unique_ptr<SourceReader>> makeOwnReaders() {
     std::vector<std::unique_ptr<SourceReader>> readers;
-    // Magic words first; CHGCAR files are known by their shape only, raw ones by name or option only.
+    // Magic words first; cube and CHGCAR files are known by their shape only, raw ones by name or option
+    // only.
     readers.push_back(std::make_unique<NrrdReader>());
     readers.push_back(std::make_unique<MetaImageReader>());
     readers.push_back(std::make_unique<NiftiReader>());
     readers.push_back(std::make_unique<SlcReader>());
+    readers.push_back(std::make_unique<CubeReader>());
     readers.push_back(std::make_unique<ChgcarReader>());
     readers.push_back(std::make_unique<RawReader>());
     return readers;

@@ -62,6 +62,19 @@ std::vector<Sample> samples() {
     }
     result.push_back({"CHGCAR", chgcar, 1});
     result.push_back({"LOCPOT.gz", gzipped(chgcar)});
+
+    std::string cube =
+        "salt\ndensity\n   -2 0 0 0\n 5 1 0 0\n 6 0 1 0\n -7 0.1 0 1\n 11 11 0 0 0\n 17 17 1 1 1\n"
+        "   2   4   5\n";
+    for (const auto value : values)
+        for (const double factor : {1.0, 0.5}) {
+            char word[32];
+            std::snprintf(word, sizeof word, " %13.5E", factor * value);
+            cube += word;
+            cube += factor < 1.0 ? "\n" : "";
+        }
+    result.push_back({"salt.cube", cube, 1});
+    result.push_back({"salt.cube.gz", gzipped(cube)});
     return result;
 }
 
@@ -141,7 +154,8 @@ TEST_F(FormatsHostile, MutatedFilesNeverCrash) {
 
 TEST_F(FormatsHostile, RandomBytesAreNoVolume) {
     std::mt19937 random(7);
-    for (const auto* name : {"x.nrrd", "x.mha", "x.nii", "x.nii.gz", "CHGCAR", "x.raw", "x.json", "x"}) {
+    for (const auto* name :
+         {"x.nrrd", "x.mha", "x.nii", "x.nii.gz", "CHGCAR", "x.cube", "x.raw", "x.json", "x"}) {
         std::string bytes(2000, '\0');
         for (auto& byte : bytes)
             byte = static_cast<char>(random());
@@ -165,6 +179,7 @@ TEST_F(FormatsHostile, LyingSizesAreRefusedInTheHeaderPhase) {
          "NDims = 3\nDimSize = 1000 1000 1000\nElementType = MET_DOUBLE\nElementDataFile = LOCAL\nabc"},
         {"e.nii", nifti.with("abc")},
         {"f.nii.gz", gzipped(nifti.with("abc"))},
+        {"g.cube", "x\ny\n0 0 0 0\n1000 1 0 0\n1000 0 1 0\n1000 0 0 1\n1 2 3\n"},
         {"CHGCAR", "x\n1\n1 0 0\n0 1 0\n0 0 1\nH\n1\nDirect\n0 0 0\n\n1000 1000 1000\n1 2 3\n"},
     };
     for (const auto& liar : liars) {

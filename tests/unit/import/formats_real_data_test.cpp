@@ -150,6 +150,23 @@ TEST_F(FormatsRealData, ChargeDensityOfHydrogen) {
     EXPECT_NEAR(density.meta().crystal->atoms[0].positionWorld.z, 4 * 0.409080, 1e-9);
 }
 
+TEST_F(FormatsRealData, GaussianCubeOfTenCarbonAtoms) {
+    const auto density = load(file("cube_m4_total_density/m4_TotalDensity.cube"));
+    const auto& meta = density.meta();
+    EXPECT_EQ(meta.grid.dims, glm::ivec3(25, 22, 31));
+    EXPECT_EQ(density.values<double>()[25 * 22], 2.88515e-10); // the file's second value: one step along z
+    EXPECT_EQ(density.values<double>()[25], 2.09874e-10);      // its 32nd: one step along y
+    ASSERT_EQ(meta.crystal->atoms.size(), 10U);
+    EXPECT_EQ(meta.crystal->atoms[9].atomicNumber, 6);
+    // Carbon atoms that share a bond: 1.40 Å, to the file's rounding.
+    EXPECT_NEAR(glm::distance(meta.crystal->atoms[0].positionWorld, meta.crystal->atoms[1].positionWorld),
+                1.40, 0.01);
+    // In e/Bohr^3: integrates to the atoms' four valence electrons each, to the grid's coarseness.
+    const double voxel = std::abs(glm::determinant(glm::dmat3(meta.grid.worldFromIndex)));
+    const double electrons = summary(density).mean * 25 * 22 * 31 * voxel / std::pow(0.529177210903, 3);
+    EXPECT_NEAR(electrons, 40.0, 0.2);
+}
+
 TEST_F(FormatsRealData, PerovskiteGrids) {
     for (const auto* name : {"AECCAR0", "AECCAR2", "LOCPOT"}) {
         const auto grid = load(file(std::string("chg_NaMgF3_perovskite/NaMgF3_") + name));
