@@ -91,6 +91,13 @@ bool isCube(const std::string& head) {
     return true;
 }
 
+/// TIFF and BigTIFF in either byte order.
+bool isTiff(std::string_view head) {
+    using namespace std::string_view_literals;
+    return head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv) ||
+           head.starts_with("MM\0+"sv);
+}
+
 /// VolVis: the magic number, three sizes and the bits per voxel, as text.
 bool isSlc(const std::string& head) {
     if (!head.starts_with("11111")) return false;
@@ -141,6 +148,7 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
                                                                         : std::nullopt;
     if (const auto mesh = meshFormat(file, text)) return mesh;
     if (isMetaImage(text)) return "metaimage";
+    if (isTiff(text)) return "tiff";
     if (isSlc(head)) return "slc";
     if (isCube(head)) return "cube";
     if (isChgcar(head)) return "chgcar";

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "import/formats/own_readers.h"
 #include "import/mesh/mesh_reader.h"
+#include "import/tiff/tiff_reader.h"
 #include "import/vtk_legacy/legacy_vtk_reader.h"
 #ifdef VOXSHEET_HAS_VTK
 #include "import/vtk/vti_reader.h"
@@ -25,13 +26,11 @@ struct Signature {
 
 // Beginnings of formats that people have volumes in and that no reader here is for: naming them helps more
 // than "unknown".
-constexpr std::array<Signature, 12> kKnownButNotRead{{
+constexpr std::array<Signature, 10> kKnownButNotRead{{
     {128, "DICM"sv, "a DICOM image"},
     {0, "\x89HDF\r\n\x1a\n"sv, "an HDF5 or NetCDF-4 file"},
     {0, "CDF\x01"sv, "a NetCDF or Exodus file"},
     {0, "CDF\x02"sv, "a NetCDF or Exodus file"},
-    {0, "II*\0"sv, "a TIFF image"},
-    {0, "MM\0*"sv, "a TIFF image"},
     {0, "\x89PNG\r\n"sv, "a PNG image"},
     {0, "\x76\x2f\x31\x01"sv, "an OpenEXR image"},
     {0, "\xff\xd8\xff"sv, "a JPEG image"},
@@ -47,6 +46,7 @@ constexpr std::array<Signature, 12> kKnownButNotRead{{
 
 ReaderRegistry::ReaderRegistry() : readers_(makeOwnReaders()) {
     readers_.push_back(makeLegacyVtkReader());
+    readers_.push_back(makeTiffReader());
 #ifdef VOXSHEET_HAS_VTK
     readers_.push_back(makeVtiReader());
 #endif

@@ -86,6 +86,7 @@ TEST_F(FolderListingTest, FormatsByContent) {
     write("root/CHGCAR_3", "MgSiO3\n 1.0\n 4.7 0 0\n 0 4.9 0\n 0 0 6.8\n Mg Si O\n");
     write("root/e.bin", "11111\n66 66 66 8\n1.0 1.0 1.0\n");
     write("root/f.bin", "water\ndensity\n 1 0 0 0\n 9 .1D0 0 0\n 9 0 .1 0\n 9 0 0 .1\n 8 8.0 0 0 0\n");
+    write("root/g.bin", std::string("II*\0", 4));
     write("root/d.txt", "just a text\n");
     EXPECT_EQ(guessFormat(base_ / "root/a.bin"), "nrrd");
     EXPECT_EQ(guessFormat(base_ / "root/b.bin"), "metaimage");
@@ -93,6 +94,7 @@ TEST_F(FolderListingTest, FormatsByContent) {
     EXPECT_EQ(guessFormat(base_ / "root/CHGCAR_3"), "chgcar");
     EXPECT_EQ(guessFormat(base_ / "root/e.bin"), "slc");
     EXPECT_EQ(guessFormat(base_ / "root/f.bin"), "cube");
+    EXPECT_EQ(guessFormat(base_ / "root/g.bin"), "tiff");
     EXPECT_FALSE(guessFormat(base_ / "root/d.txt"));
     EXPECT_FALSE(guessFormat(base_ / "root/absent"));
 }

@@ -1,4 +1,4 @@
-// Reading VTK files through the registry, as the importer does.
+// Reading VTK and TIFF files through the registry, as the importer does.
 #pragma once
 
 #include "formats_fixture.h"
@@ -8,10 +8,11 @@
 
 namespace voxsheet::import::testing {
 
-inline Loaded loadAny(const fs::path& path, const ImportOptions& options = {}) {
+inline Loaded loadAny(const fs::path& path, const ImportOptions& options = {},
+                      const ImportLimits& limits = {}) {
     static const ReaderRegistry readers;
     const auto& reader = readers.choose(path, options);
-    Loaded loaded{reader.readHeader(path, options, {}), {}};
+    Loaded loaded{reader.readHeader(path, options, limits), {}};
     const auto notes = reader.readData(
         loaded.header,
         [&](int field, int step, std::vector<std::byte>&& voxels) {
@@ -20,7 +21,7 @@ inline Loaded loadAny(const fs::path& path, const ImportOptions& options = {}) {
         },
         [](double) {});
     loaded.header.meta.notes.insert(loaded.header.meta.notes.end(), notes.begin(), notes.end());
-    EXPECT_EQ(loaded.arrays.size(), loaded.meta().fields.size());
+    EXPECT_EQ(loaded.arrays.size(), loaded.meta().fields.size() * loaded.meta().times.size());
     return loaded;
 }
 
