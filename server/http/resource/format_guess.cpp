@@ -111,6 +111,27 @@ bool isSlc(const std::string& head) {
     return magic == "11111" && !words.fail() && next != EOF && std::isspace(next) != 0;
 }
 
+/// XSF: after comments a keyword alone in its line, then what may follow it.
+bool isXsf(const std::string& head) {
+    std::istringstream lines(head);
+    std::string keyword;
+    std::string next;
+    const auto read = [&](std::string& line) {
+        while (std::getline(lines, line)) {
+            line.erase(0, line.find_first_not_of(" \t\r"));
+            line.erase(line.find_last_not_of(" \t\r") + 1);
+            if (!line.empty() && line[0] != '#') return true;
+        }
+        return false;
+    };
+    if (!read(keyword) || !read(next)) return false;
+    if (keyword == "CRYSTAL" || keyword == "SLAB" || keyword == "POLYMER" || keyword == "MOLECULE")
+        return std::isupper(static_cast<unsigned char>(next[0])) != 0;
+    if (keyword == "PRIMVEC") return countNumbers(next) == 3;
+    if (keyword == "DIM-GROUP") return countNumbers(next) == 2;
+    return keyword == "ATOMS" || keyword.starts_with("BEGIN_BLOCK_DATAGRID_3D");
+}
+
 bool isMetaImage(std::string_view head) {
     const auto firstLine = head.substr(0, head.find('\n'));
     return firstLine.starts_with("ObjectType") || firstLine.starts_with("NDims") ||
@@ -150,6 +171,7 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
     if (isMetaImage(text)) return "metaimage";
     if (isTiff(text)) return "tiff";
     if (isSlc(head)) return "slc";
+    if (isXsf(head)) return "xsf";
     if (isCube(head)) return "cube";
     if (isChgcar(head)) return "chgcar";
     if (file.extension() == ".json" && text.find("\"dims\"") != std::string_view::npos) return "raw";

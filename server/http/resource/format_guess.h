@@ -8,8 +8,9 @@
 
 namespace voxsheet::http {
 
-/// DatasetMeta::format of the likely reader ("nrrd", "metaimage", "nifti", "vti", "vtk", "cube", "chgcar",
-/// "slc", "tiff", "raw"); nothing if none is recognised or the file cannot be read. Reads at most 64 KiB.
+/// DatasetMeta::format of the likely reader ("nrrd", "metaimage", "nifti", "vti", "vtk", "xsf", "cube",
+/// "chgcar", "slc", "tiff", "raw"); nothing if none is recognised or the file cannot be read. Reads at most
+/// 64 KiB.
 [[nodiscard]] std::optional<std::string> guessFormat(const std::filesystem::path& file);
 
 } // namespace voxsheet::http

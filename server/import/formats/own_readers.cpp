@@ -9,6 +9,7 @@
 #include "import/formats/nrrd_reader.h"
 #include "import/formats/raw_reader.h"
 #include "import/formats/slc_reader.h"
+#include "import/formats/xsf_reader.h"
 
 namespace voxsheet::import {
 
@@ -44,6 +45,7 @@ std::vector<std::unique_ptr<SourceReader>> makeOwnReaders() {
     readers.push_back(std::make_unique<MetaImageReader>());
     readers.push_back(std::make_unique<NiftiReader>());
     readers.push_back(std::make_unique<SlcReader>());
+    readers.push_back(std::make_unique<XsfReader>());
     readers.push_back(std::make_unique<CubeReader>());
     readers.push_back(std::make_unique<ChgcarReader>());
     readers.push_back(std::make_unique<RawReader>());

@@ -8,8 +8,8 @@
 
 namespace voxsheet::import {
 
-/// NRRD, MetaImage, NIfTI, SLC, Gaussian cube, CHGCAR family, raw + JSON: in the order in which they should
-/// be asked.
+/// NRRD, MetaImage, NIfTI, SLC, XSF, Gaussian cube, CHGCAR family, raw + JSON: in the order in which they
+/// should be asked.
 [[nodiscard]] std::vector<std::unique_ptr<SourceReader>> makeOwnReaders();
 
 /// Throws NotFound, IoError (unreadable), InvalidInput (a folder, a device, an empty file, a Git LFS

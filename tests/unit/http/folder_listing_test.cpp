@@ -87,6 +87,7 @@ TEST_F(FolderListingTest, FormatsByContent) {
     write("root/e.bin", "11111\n66 66 66 8\n1.0 1.0 1.0\n");
     write("root/f.bin", "water\ndensity\n 1 0 0 0\n 9 .1D0 0 0\n 9 0 .1 0\n 9 0 0 .1\n 8 8.0 0 0 0\n");
     write("root/g.bin", std::string("II*\0", 4));
+    write("root/h.bin", "# made by hand\n CRYSTAL\n\nPRIMVEC\n 4 0 0\n 0 4 0\n 0 0 4\n");
     write("root/d.txt", "just a text\n");
     EXPECT_EQ(guessFormat(base_ / "root/a.bin"), "nrrd");
     EXPECT_EQ(guessFormat(base_ / "root/b.bin"), "metaimage");
@@ -95,6 +96,7 @@ TEST_F(FolderListingTest, FormatsByContent) {
     EXPECT_EQ(guessFormat(base_ / "root/e.bin"), "slc");
     EXPECT_EQ(guessFormat(base_ / "root/f.bin"), "cube");
     EXPECT_EQ(guessFormat(base_ / "root/g.bin"), "tiff");
+    EXPECT_EQ(guessFormat(base_ / "root/h.bin"), "xsf");
     EXPECT_FALSE(guessFormat(base_ / "root/d.txt"));
     EXPECT_FALSE(guessFormat(base_ / "root/absent"));
 }

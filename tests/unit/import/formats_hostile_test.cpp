@@ -63,6 +63,15 @@ std::vector<Sample> samples() {
     result.push_back({"CHGCAR", chgcar, 1});
     result.push_back({"LOCPOT.gz", gzipped(chgcar)});
 
+    std::string xsf =
+        "CRYSTAL\nPRIMVEC\n 2 0 0\n 0 3 0\n 1 0 4\nPRIMCOORD\n 2 1\n 11 0 0 0\n Cl 1 1 1\n"
+        "BEGIN_BLOCK_DATAGRID_3D\nrho\nBEGIN_DATAGRID_3D_rho\n 5 6 7\n 0 0 0\n 2 0 0\n 0 3 0\n 1 0 4\n";
+    for (const auto value : values)
+        xsf += " " + std::to_string(value) + "\n";
+    xsf += "END_DATAGRID_3D\nEND_BLOCK_DATAGRID_3D\n";
+    result.push_back({"salt.xsf", xsf, 4}); // "_3D" and a line end
+    result.push_back({"salt.xsf.gz", gzipped(xsf)});
+
     std::string cube =
         "salt\ndensity\n   -2 0 0 0\n 5 1 0 0\n 6 0 1 0\n -7 0.1 0 1\n 11 11 0 0 0\n 17 17 1 1 1\n"
         "   2   4   5\n";
@@ -155,7 +164,7 @@ TEST_F(FormatsHostile, MutatedFilesNeverCrash) {
 TEST_F(FormatsHostile, RandomBytesAreNoVolume) {
     std::mt19937 random(7);
     for (const auto* name :
-         {"x.nrrd", "x.mha", "x.nii", "x.nii.gz", "CHGCAR", "x.cube", "x.raw", "x.json", "x"}) {
+         {"x.nrrd", "x.mha", "x.nii", "x.nii.gz", "CHGCAR", "x.cube", "x.xsf", "x.raw", "x.json", "x"}) {
         std::string bytes(2000, '\0');
         for (auto& byte : bytes)
             byte = static_cast<char>(random());
@@ -179,6 +188,8 @@ TEST_F(FormatsHostile, LyingSizesAreRefusedInTheHeaderPhase) {
          "NDims = 3\nDimSize = 1000 1000 1000\nElementType = MET_DOUBLE\nElementDataFile = LOCAL\nabc"},
         {"e.nii", nifti.with("abc")},
         {"f.nii.gz", gzipped(nifti.with("abc"))},
+        {"h.xsf",
+         "BEGIN_BLOCK_DATAGRID_3D\nx\nBEGIN_DATAGRID_3D\n1000 1000 1000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"},
         {"g.cube", "x\ny\n0 0 0 0\n1000 1 0 0\n1000 0 1 0\n1000 0 0 1\n1 2 3\n"},
         {"CHGCAR", "x\n1\n1 0 0\n0 1 0\n0 0 1\nH\n1\nDirect\n0 0 0\n\n1000 1000 1000\n1 2 3\n"},
     };
