@@ -194,9 +194,9 @@ void TiffFile::goToPage(std::uint64_t pageOffset) {
 
 PageFormat TiffFile::format(int page) const {
     auto* const handle = handle_.get();
-    const auto refuse = [&](const std::string& why) {
-        throw Unsupported(source_->file->name(), "page " + std::to_string(page) + " " + why,
-                          "convert it to 8, 16 or 32 bits, grey or RGB");
+    const auto refuse = [&](const std::string& why,
+                            const char* whatToDo = "convert it to 8, 16 or 32 bits, grey or RGB") {
+        throw Unsupported(source_->file->name(), "page " + std::to_string(page) + " " + why, whatToDo);
     };
     PageFormat format;
     format.width = tag<std::uint32_t>(handle, TIFFTAG_IMAGEWIDTH);
@@ -209,8 +209,8 @@ PageFormat TiffFile::format(int page) const {
         std::max<std::uint32_t>(tag<std::uint32_t>(handle, TIFFTAG_IMAGEDEPTH), 1) != 1)
         refuse("has no plane of pixels");
     if (!TIFFIsCODECConfigured(static_cast<std::uint16_t>(compression)))
-        refuse("is compressed in a way that cannot be read here (number " + std::to_string(compression) +
-               ")");
+        refuse("is compressed in a way that cannot be read here (number " + std::to_string(compression) + ")",
+               "save it without compression");
     const auto type = typeOf(bits, sampleFormat);
     if (!type)
         refuse("has samples of " + std::to_string(bits) + " bits" +
