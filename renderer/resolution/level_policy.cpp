@@ -46,6 +46,25 @@ double gainOfLevel(const CellDemand& cell, int level) {
     return cell.pixels * octaves * (cell.focused ? kFocusWeight : 1.0);
 }
 
+/// Level of a texture that a cell reads, and its bytes.
+struct ReadTexture {
+    std::pair<std::string_view, int> texture;
+    std::uint64_t bytes;
+};
+
+ReadTexture furtherTexture(const FurtherVolume& further, int level) {
+    const int own = std::min(level, static_cast<int>(further.textureBytes.size()) - 1);
+    return {{further.volume, own}, further.textureBytes[static_cast<std::size_t>(own)]};
+}
+
+std::vector<ReadTexture> texturesRead(const CellDemand& cell, int level) {
+    std::vector<ReadTexture> textures{
+        {{cell.volume, level}, cell.textureBytes[static_cast<std::size_t>(level)]}};
+    for (const FurtherVolume& further : cell.further)
+        textures.push_back(furtherTexture(further, level));
+    return textures;
+}
+
 bool movable(const CellDemand& cell, int level) { return !cell.pinned && level + 1 < cell.levels(); }
 
 /// Lowering the finest cells of one volume together: only then does a texture go.
@@ -66,6 +85,8 @@ public:
         bytes_ = static_cast<double>(cost.textureBytes);
         std::map<std::string_view, std::size_t> known;
         for (std::size_t i = 0; i < cells.size(); ++i) {
+            for (const ReadTexture& read : texturesRead(cells[i], levels_[i]))
+                ++readers_[read.texture];
             const auto [place, isNew] = known.emplace(cells[i].volume, steps_.size());
             if (isNew) steps_.emplace_back();
             steps_[place->second].members.push_back(i);
@@ -77,11 +98,16 @@ public:
     std::vector<int> run() {
         while (overTime() || overBytes()) {
             LoweringStep* step = cheapest();
-            if (step == nullptr) break;
-            for (const std::size_t i : step->lowered)
-                ++levels_[i];
-            ms_ -= step->ms;
-            bytes_ -= step->bytes;
+            if (step == nullptr) {
+                // What other steps gave back may have made one worth it that was not: they share layers.
+                for (LoweringStep& each : steps_)
+                    prepare(each);
+                step = cheapest();
+            }
+            if (step == nullptr && !lowerTogether()) break;
+            if (step == nullptr) continue;
+            prepare(*step);
+            take(*step);
             prepare(*step);
         }
         return std::move(levels_);
@@ -107,14 +133,64 @@ private:
             if (!cells_[i].ms.empty()) step.ms += cells_[i].ms[at] - cells_[i].ms[at + 1];
             step.gain += gainOfLevel(cells_[i], level);
         }
-        const auto showing = [&](int which) {
-            return std::count_if(step.members.begin(), step.members.end(),
-                                 [&](std::size_t i) { return levels_[i] == which; });
-        };
-        const auto& sizes = cells_[step.lowered.front()].textureBytes;
-        if (showing(level) == static_cast<std::ptrdiff_t>(step.lowered.size()))
-            step.bytes += static_cast<double>(sizes[at]);
-        if (showing(level + 1) == 0) step.bytes -= static_cast<double>(sizes[at + 1]);
+        step.bytes = bytesGivenBack(step);
+    }
+
+    void take(const LoweringStep& step) {
+        for (const std::size_t i : step.lowered)
+            lower(i);
+        ms_ -= step.ms;
+        bytes_ -= step.bytes;
+    }
+
+    /// Cells that read each other's volumes give nothing back one by one: those of one level, the finest that
+    /// helps, go together. False: it does not help either.
+    bool lowerTogether() {
+        if (!overBytes()) return false;
+        std::map<int, LoweringStep> byLevel;
+        for (const LoweringStep& step : steps_) {
+            if (step.lowered.empty()) continue;
+            LoweringStep& all = byLevel[levels_[step.lowered.front()]];
+            all.lowered.insert(all.lowered.end(), step.lowered.begin(), step.lowered.end());
+            all.ms += step.ms;
+        }
+        for (auto& [level, all] : byLevel) {
+            all.bytes = bytesGivenBack(all);
+            if (all.bytes <= 0.0) continue;
+            take(all);
+            for (LoweringStep& step : steps_)
+                prepare(step);
+            return true;
+        }
+        return false;
+    }
+
+    void lower(std::size_t cell) {
+        for (const ReadTexture& read : texturesRead(cells_[cell], levels_[cell]))
+            --readers_[read.texture];
+        ++levels_[cell];
+        for (const ReadTexture& read : texturesRead(cells_[cell], levels_[cell]))
+            ++readers_[read.texture];
+    }
+
+    /// What nobody reads any more, less what nobody has read before.
+    double bytesGivenBack(const LoweringStep& step) const {
+        std::map<std::pair<std::string_view, int>, std::pair<int, std::uint64_t>> changes;
+        for (const std::size_t i : step.lowered) {
+            for (const ReadTexture& read : texturesRead(cells_[i], levels_[i]))
+                changes.try_emplace(read.texture, 0, read.bytes).first->second.first -= 1;
+            for (const ReadTexture& read : texturesRead(cells_[i], levels_[i] + 1))
+                changes.try_emplace(read.texture, 0, read.bytes).first->second.first += 1;
+        }
+        double bytes = 0.0;
+        for (const auto& [texture, change] : changes) {
+            const auto found = readers_.find(texture);
+            const int before = found == readers_.end() ? 0 : found->second;
+            const int after = before + change.first;
+            if (before > 0 && after == 0) bytes += static_cast<double>(change.second);
+            if (before == 0 && after > 0) bytes -= static_cast<double>(change.second);
+        }
+        return bytes;
     }
 
     /// Of the exceeded budgets; 0 when the step does not help.
@@ -143,7 +219,8 @@ private:
     std::vector<int> levels_;
     double ms_ = 0.0;
     double bytes_ = 0.0;
-    std::vector<LoweringStep> steps_; ///< one per volume
+    std::map<std::pair<std::string_view, int>, int> readers_; ///< cells by texture
+    std::vector<LoweringStep> steps_;                         ///< one per volume
 };
 
 void positive(double value, const char* field, const char* what) {
@@ -242,8 +319,8 @@ SheetCost sheetCost(std::span<const CellDemand> cells, std::span<const int> leve
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto level = static_cast<std::size_t>(levels[i]);
         if (!cells[i].ms.empty()) cost.ms += cells[i].ms[level];
-        if (textures.emplace(cells[i].volume, levels[i]).second)
-            cost.textureBytes += cells[i].textureBytes[level];
+        for (const ReadTexture& read : texturesRead(cells[i], levels[i]))
+            if (textures.insert(read.texture).second) cost.textureBytes += read.bytes;
     }
     return cost;
 }

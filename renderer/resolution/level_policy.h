@@ -50,6 +50,15 @@ void validateLevelSettings(const LevelSettings& settings);
 /// Off and Focus: the criterion is Off.
 [[nodiscard]] ResolutionRule ruleOf(const LevelSettings& settings);
 
+/// A volume that a cell's picture reads besides the drawn one, at the level of that or, if it has not so
+/// many, its coarsest.
+struct FurtherVolume {
+    std::string volume;                      ///< as CellDemand::volume
+    std::vector<std::uint64_t> textureBytes; ///< per level of its own; at least one
+
+    bool operator==(const FurtherVolume&) const = default;
+};
+
 /// What one cell asks for, and what it costs.
 struct CellDemand {
     std::string volume; ///< cells that show the same volume share its textures
@@ -58,6 +67,7 @@ struct CellDemand {
     double texelEdgePixels = 1.0;
     double pixels = 1.0;                     ///< of its picture
     std::vector<std::uint64_t> textureBytes; ///< per level; at least one
+    std::vector<FurtherVolume> further;      ///< fused layers, and what colours isosurfaces
     std::vector<double> ms;                  ///< per level: expected time of its picture; 0 = not known
     int finest = 0;                          ///< no finer level is asked for
     std::optional<int> pinned;               ///< the level that the user chose; clamped to those there are

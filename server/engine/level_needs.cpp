@@ -28,6 +28,24 @@ bool hasGradientTexture(const TileSpec& tile) {
            tile.technique != Technique::Mip && tile.technique != Technique::Surface;
 }
 
+std::string volumeName(const std::string& dataset, int field, int step, FloatTexels floatTexels) {
+    return dataset + "/" + std::to_string(field) + "/" + std::to_string(step) +
+           (floatTexels == FloatTexels::Half ? "h" : "");
+}
+
+std::vector<std::uint64_t> bytesPerLevel(const DatasetMeta& meta, int field, FloatTexels floatTexels,
+                                         bool exactR8Filtering, std::uint64_t gradientTexelBytes) {
+    const ScalarType type = meta.fields.at(static_cast<std::size_t>(field)).storedType;
+    std::vector<std::uint64_t> bytes;
+    for (int level = 0; level < meta.levels(); ++level) {
+        const TextureEncoding encoding =
+            chooseTextureEncoding(levelType(type, level), 0.0, 1.0, exactR8Filtering, floatTexels);
+        const auto texels = static_cast<std::uint64_t>(sampleCount(levelDims(meta.grid.dims, level)));
+        bytes.push_back(texels * (texelFormatBytes(encoding.format) + gradientTexelBytes));
+    }
+    return bytes;
+}
+
 } // namespace
 
 double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 sizePixels) {
@@ -46,23 +64,22 @@ LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet
                       bool exactR8Filtering) {
     LevelNeeds needs;
     const bool gradients = hasGradientTexture(tile);
-    needs.volume = tile.dataset + "/" + std::to_string(tile.field) + "/" + std::to_string(tile.step) +
-                   (tile.floatTexels == FloatTexels::Half ? "h" : "") + (gradients ? "g" : "");
+    needs.volume = volumeName(tile.dataset, tile.field, tile.step, tile.floatTexels) + (gradients ? "g" : "");
     needs.work = std::to_string(static_cast<int>(tile.technique)) + (tile.shading.enabled ? "s" : "") +
                  (gradients ? "g" : "") + std::string(tile.layers.volumes.size(), 'l') + " " +
                  std::to_string(tile.sampleDistanceVoxels);
     needs.texelEdgePixels = texelEdgePixels(meta.grid, tile.camera, tile.sizePixels);
     needs.finest = static_cast<int>(style.quality);
     needs.pinned = style.level;
-    const FieldMeta& field = meta.fields.at(static_cast<std::size_t>(tile.field));
-    for (int level = 0; level < meta.levels(); ++level) {
-        const TextureEncoding encoding = chooseTextureEncoding(levelType(field.storedType, level), 0.0, 1.0,
-                                                               exactR8Filtering, tile.floatTexels);
-        const auto texels = static_cast<std::uint64_t>(sampleCount(levelDims(meta.grid.dims, level)));
-        needs.textureBytes.push_back(
-            texels * (texelFormatBytes(encoding.format) + (gradients ? kGradientTexelBytes : 0)));
-    }
+    needs.textureBytes = bytesPerLevel(meta, tile.field, tile.floatTexels, exactR8Filtering,
+                                       gradients ? kGradientTexelBytes : 0);
     return needs;
+}
+
+FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, FloatTexels floatTexels,
+                            bool exactR8Filtering) {
+    return {volumeName(meta.key, field, step, floatTexels),
+            bytesPerLevel(meta, field, floatTexels, exactR8Filtering, 0)};
 }
 
 } // namespace voxsheet::engine

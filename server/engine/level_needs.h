@@ -1,6 +1,7 @@
 // What choosing a cell's level of detail needs to know about its picture.
 #pragma once
 
+#include "resolution/level_policy.h"
 #include "sheet/typed_style.h"
 #include "stages/tile_spec.h"
 #include "volume/dataset.h"
@@ -18,16 +19,24 @@ struct LevelNeeds {
     std::string work;   ///< technique and what else changes the time of a picture per pixel
     double texelEdgePixels = 1.0;            ///< CellDemand::texelEdgePixels
     std::vector<std::uint64_t> textureBytes; ///< per level; its size is the number of levels
-    int finest = 0;                          ///< what the style's `quality` allows
-    std::optional<int> pinned;               ///< the style's `level`
+    /// Fused layers and what colours isosurfaces. A volume whose own cell is lit with a gradient texture
+    /// counts once there and once here: an estimate from above.
+    std::vector<FurtherVolume> further;
+    int finest = 0;            ///< what the style's `quality` allows
+    std::optional<int> pinned; ///< the style's `level`
 };
 
 /// The longest edge of a level-0 voxel in pixels, at the depth of the corner of the drawn box that is nearest
 /// to the eye, whichever way the edge points. Infinite when that corner is beside or behind the eye.
 [[nodiscard]] double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 sizePixels);
 
+/// All but `further`.
 /// \param exactR8Filtering  chooseTextureEncoding
 [[nodiscard]] LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta,
                                     const sheet::TypedStyle& style, bool exactR8Filtering);
+
+/// One volume as textures hold it, for LevelNeeds::further.
+[[nodiscard]] FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step,
+                                          FloatTexels floatTexels, bool exactR8Filtering);
 
 } // namespace voxsheet::engine

@@ -256,8 +256,20 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
         tile.layerLevels.push_back(layer.meta->levels());
     }
     tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
+    tile.needs.further = furtherVolumes(look);
     tile.spec = std::move(spec);
     tile.identity = tileIdentity(*tile.spec, environment_.text);
+}
+
+std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look) const {
+    std::vector<FurtherVolume> volumes;
+    if (const auto& by = look.colouredBy)
+        volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step, FloatTexels::Full,
+                                        environment_.exactR8Filtering));
+    for (const LayerLook& layer : look.layers)
+        volumes.push_back(furtherVolume(*layer.meta, layer.shown.field, layer.shown.step, layer.floatTexels,
+                                        environment_.exactR8Filtering));
+    return volumes;
 }
 
 PreparedTile TileMaker::atLevel(PreparedTile tile, int level) const {

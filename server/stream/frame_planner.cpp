@@ -113,6 +113,7 @@ std::vector<CellOnShow> FramePlanner::cellsOnShow(const ClientView& view) const 
         cell.demand.texelEdgePixels = needs.texelEdgePixels;
         cell.demand.pixels = pixelsOf(tile.tile);
         cell.demand.textureBytes = needs.textureBytes;
+        cell.demand.further = needs.further;
         cell.demand.finest = needs.finest;
         cell.demand.pinned = needs.pinned;
         cell.demand.focused = view.focus == tile.tile.cell;
@@ -135,6 +136,8 @@ void FramePlanner::chooseLevels(const ClientView& view, bool interactive) {
                  << sheet::addressName(cell.cell) << ' ' << demand.volume << ' ' << demand.texelEdgePixels
                  << ' ' << demand.pixels << ' ' << demand.finest << ' ' << demand.pinned.value_or(-1) << ' '
                  << demand.focused;
+        for (const FurtherVolume& further : demand.further)
+            demanded << ' ' << further.volume;
     }
     const bool same = demanded.str() == demanded_;
     demanded_ = demanded.str();

@@ -118,6 +118,28 @@ TEST_F(EngineTest, LayersLookAsTheirOwnCellsDo) {
     EXPECT_EQ(volumesOf(*tile.spec, WantedPriority::Visible).size(), 4U);
 }
 
+TEST_F(EngineTest, ATileNeedsTheBytesOfItsLayersAndOfWhatColoursItsSurfaces) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {16, 8, 8}, 40))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    const auto needs = [&](const sheet::Address& cell, const sheet::StyleMap& style) {
+        View view;
+        view.all = style;
+        return engine.prepareTile(*engine.snapshot(), "", cell, view, {}).needs;
+    };
+    const LevelNeeds own = needs({1, 0}, {});
+    EXPECT_TRUE(needs({0, 0}, {}).further.empty());
+    for (const sheet::StyleMap& style : {sheet::StyleMap{{"layers", std::string("B1")}},
+                                         sheet::StyleMap{{"technique", std::string("isosurface")},
+                                                         {"isosurface.colorBy", std::string("B1")}}}) {
+        const LevelNeeds fused = needs({0, 0}, style);
+        ASSERT_EQ(fused.further.size(), 1U);
+        EXPECT_EQ(fused.further[0].volume, own.volume);
+        EXPECT_EQ(fused.further[0].textureBytes, own.textureBytes);
+    }
+}
+
 TEST_F(EngineTest, LayersThatCannotBeBlendedSayWhy) {
     Engine engine(options());
     engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});

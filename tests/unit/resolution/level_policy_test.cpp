@@ -200,5 +200,34 @@ TEST(LevelPolicy, FourHundredVolumesAreQuick) {
     EXPECT_LE(sheetCost(cells, levels).ms, 400 * 100.0 / 16.0 * (1 + 1e-9));
 }
 
+TEST(LevelPolicy, AFurtherVolumeCountsOncePerLevelWhoeverReadsIt) {
+    CellDemand own = cell("b", 4.0);
+    CellDemand one = cell("a", 4.0);
+    one.further = {{"b", own.textureBytes}};
+    CellDemand two = cell("c", 4.0);
+    two.further = {{"b", {own.textureBytes[0]}}}; // has one level only
+    const std::uint64_t full = 32 * kMiB;
+    const std::vector<CellDemand> cells{own, one, two};
+    EXPECT_EQ(sheetCost(cells, std::vector<int>{0, 0, 0}).textureBytes, 3 * full);
+    EXPECT_EQ(sheetCost(cells, std::vector<int>{0, 1, 0}).textureBytes, full + full + 2 * full / 8);
+    EXPECT_EQ(sheetCost(cells, std::vector<int>{1, 1, 1}).textureBytes, full + 3 * full / 8);
+}
+
+TEST(LevelPolicy, FusedLayersAreKeptWithinTheBytesOfTheSheet) {
+    std::mt19937 random(11);
+    for (int run = 0; run < 200; ++run) {
+        std::vector<CellDemand> cells = equalCells(8, 4.0, 0.0);
+        for (CellDemand& each : cells) {
+            const auto layers = random() % 3;
+            for (std::uint32_t i = 0; i < layers; ++i)
+                each.further.push_back({"v" + std::to_string(random() % 12), each.textureBytes});
+        }
+        const SheetBudget budget{1e9, (8 + random() % 200) * kMiB};
+        const auto levels = focusLevels(cells, budget);
+        EXPECT_LE(sheetCost(cells, levels).textureBytes, budget.textureBytes) << "run " << run;
+        EXPECT_EQ(focusLevels(cells, kAmple), std::vector<int>(8, 0));
+    }
+}
+
 } // namespace
 } // namespace voxsheet

@@ -1,0 +1,37 @@
+#include "engine/level_needs.h"
+
+#include "memory_dataset.h"
+
+#include <gtest/gtest.h>
+
+namespace voxsheet::engine {
+namespace {
+
+TEST(LevelNeeds, AFurtherVolumeIsNamedAndSizedAsTheCellThatShowsIt) {
+    const DatasetMeta meta = test::metaOf("b", {64, 32, 16});
+    TileSpec tile;
+    tile.dataset = "b";
+    const LevelNeeds own = levelNeeds(tile, meta, {}, true);
+    const FurtherVolume further = furtherVolume(meta, 0, 0, FloatTexels::Full, true);
+    EXPECT_EQ(further.volume, own.volume);
+    EXPECT_EQ(further.textureBytes, own.textureBytes);
+    ASSERT_EQ(further.textureBytes.size(), static_cast<std::size_t>(meta.levels()));
+    EXPECT_EQ(further.textureBytes.at(0), 64U * 32 * 16 * 4) << "float texels";
+    EXPECT_TRUE(own.further.empty());
+    const FurtherVolume half = furtherVolume(meta, 0, 0, FloatTexels::Half, true);
+    EXPECT_NE(half.volume, further.volume) << "another texture";
+    EXPECT_EQ(half.textureBytes.at(0), 64U * 32 * 16 * 2);
+}
+
+TEST(LevelNeeds, AGradientTextureIsTheDrawnVolumesOwn) {
+    const DatasetMeta meta = test::metaOf("b", {64, 32, 16});
+    TileSpec tile;
+    tile.dataset = "b";
+    tile.shading.enabled = true;
+    tile.shading.gradient = GradientSource::Texture;
+    const LevelNeeds lit = levelNeeds(tile, meta, {}, true);
+    EXPECT_EQ(lit.textureBytes.at(0), 64U * 32 * 16 * (4 + 8));
+}
+
+} // namespace
+} // namespace voxsheet::engine
