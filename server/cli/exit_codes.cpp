@@ -8,10 +8,19 @@
 
 namespace voxsheet::cli {
 
+namespace {
+
+void printLine(const char* kind, std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::fprintf(stderr, "voxsheet: %s: %s\n", kind, text.c_str());
+}
+
+} // namespace
+
+void reportWarning(const std::string& text) { printLine("warning", text); }
+
 int reportFailure(const std::string& text) {
-    std::string line = text;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fprintf(stderr, "voxsheet: error: %s\n", line.c_str());
+    printLine("error", text);
     return kExitFailed;
 }
 

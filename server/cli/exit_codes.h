@@ -15,5 +15,7 @@ inline constexpr int kExitUsage = 2;
 int reportFailure(const std::exception& error);
 /// The same for a text; always kExitFailed.
 int reportFailure(const std::string& text);
+/// Prints `voxsheet: warning: TEXT` on stderr.
+void reportWarning(const std::string& text);
 
 } // namespace voxsheet::cli

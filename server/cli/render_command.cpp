@@ -104,6 +104,8 @@ int runRender(const RenderArguments& arguments) {
     const auto image = finalImage(engine, request);
     for (const std::string& failure : image.failures)
         reportFailure(failure);
+    for (const std::string& note : image.notes)
+        reportWarning(note);
     engine::writeImageFile(image.pixels, arguments.output);
     return image.failedCells > 0 ? kExitFailed : kExitDone;
 }

@@ -118,6 +118,7 @@ struct PreparedTile {
     std::string identity;  ///< 32 hex digits over spec, device, driver, build; equal identity, equal pixels
     std::string code;      ///< "", "#IMPORT!", "#GRID!", …
     std::string message;   ///< sentence for `code`
+    std::string note;      ///< with `spec`: what a user should know about the picture; empty: nothing
     double progress = 1.0; ///< < 1 while the source is being imported or computed
     LevelNeeds needs;      ///< with `spec` only
     int colourVolumeLevels = 1;   ///< of the volume that colours isosurfaces, if there is one
@@ -155,6 +156,7 @@ struct SheetImage {
     std::string identity;
     int failedCells = 0;               ///< cells drawn as a labelled error tile
     std::vector<std::string> failures; ///< one sentence per failed cell: "cell B2: #TYPE! ..."
+    std::vector<std::string> notes;    ///< "cell B2: ...": what to know about cells that are drawn
     bool final = true;                 ///< nothing that is shown is still being imported or computed
 };
 

@@ -3,6 +3,8 @@
 #include "base/errors.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <string>
 
 namespace voxsheet::engine {
@@ -49,6 +51,12 @@ glm::dvec3 automaticColour(const TransferFunction& function, double value, bool 
     return brightened(glm::dvec3(evaluateTransfer(function, from)));
 }
 
+std::string numberText(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
 glm::vec4 givenColour(const sheet::IsosurfaceStyle& style, std::size_t surface, double opacity) {
     const sheet::Colour& colour = repeating(style.colours, surface);
     return glm::vec4(glm::dvec4(colour.red(), colour.green(), colour.blue(), colour.alpha() * opacity));
@@ -90,6 +98,19 @@ IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style, const Tran
     spec.method = style.method == sheet::IsosurfaceMethod::AlphaTest ? IsosurfaceMethod::AlphaTest
                                                                      : IsosurfaceMethod::Refined;
     return spec;
+}
+
+std::string emptySurfacesNote(const std::vector<Isosurface>& surfaces, const ValueSummary& own) {
+    if (surfaces.empty() || own.quantiles.empty()) return {};
+    const auto outside = [&](const Isosurface& each) { return each.value < own.min || each.value > own.max; };
+    if (!std::all_of(surfaces.begin(), surfaces.end(), outside)) return {};
+    std::string values;
+    for (const Isosurface& each : surfaces)
+        values += (values.empty() ? "" : ", ") + numberText(each.value);
+    return "no surface is drawn: the data's values go from " + numberText(own.min) + " to " +
+           numberText(own.max) + ", and " +
+           (surfaces.size() == 1 ? "the isovalue is " + values : "the isovalues are " + values) +
+           "; set isovalue to a value between them";
 }
 
 } // namespace voxsheet::engine

@@ -6,6 +6,7 @@
 #include "stages/isosurface_spec.h"
 #include "volume/transfer_function.h"
 
+#include <string>
 #include <vector>
 
 namespace voxsheet::engine {
@@ -26,5 +27,10 @@ namespace voxsheet::engine {
 [[nodiscard]] IsosurfaceSpec resolveIsosurface(const sheet::IsosurfaceStyle& style,
                                                const TransferFunction& function, const ValueSummary& summary,
                                                bool paleAtZero = false);
+
+/// A sentence when every surface lies outside the values that the volume has, so that none can be drawn; else
+/// empty. Also empty for a volume without a finite value.
+/// \param own  of the cell's own volume, not of those that share a range with it
+[[nodiscard]] std::string emptySurfacesNote(const std::vector<Isosurface>& surfaces, const ValueSummary& own);
 
 } // namespace voxsheet::engine

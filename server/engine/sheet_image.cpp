@@ -167,6 +167,8 @@ private:
                     sources_.tiles.look(workbook_, sheetIndex_, cell.address, request_.view, contents_);
             }
             if (cell.tile.progress < 1.0) image_.final = false;
+            if (!cell.tile.note.empty())
+                image_.notes.push_back("cell " + sheet::addressName(cell.address) + ": " + cell.tile.note);
             identity_ += "\n" + cell.tile.identity + std::to_string(static_cast<int>(cell.annotations)) +
                          (cell.cell != nullptr ? sheet::cellTitle(*cell.cell) : "");
         }

@@ -67,6 +67,8 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
         const bool paleAtZero =
             look.transfer.diverging && map != nullptr && map->kind == ColourMapKind::Diverging;
         look.isosurface = resolveIsosurface(surfaces, look.transfer.function, *summary, paleAtZero);
+        look.note = emptySurfacesNote(look.isosurface.surfaces,
+                                      *cache_.summary(*look.meta, look.shown.field, look.shown.step));
     }
     return look;
 }
@@ -257,6 +259,7 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
     }
     tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
     tile.needs.further = furtherVolumes(look);
+    tile.note = look.note;
     tile.spec = std::move(spec);
     tile.identity = tileIdentity(*tile.spec, environment_.text);
 }

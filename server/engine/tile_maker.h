@@ -39,6 +39,7 @@ struct CellLook {
     FieldAndStep shown;
     ResolvedTransfer transfer;
     IsosurfaceSpec isosurface; ///< empty unless the technique is isosurface
+    std::string note;          ///< PreparedTile::note
     std::shared_ptr<const DatasetMeta> meta;
     bool sharedRange = false;
     std::optional<ClipObjectVolume> clipObject;

@@ -18,6 +18,10 @@ constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
 constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
 
+std::string joined(const std::string& note, const std::string& other) {
+    return note.empty() || other.empty() ? note + other : note + ". " + other;
+}
+
 double milliseconds(std::chrono::steady_clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
@@ -261,7 +265,7 @@ void StreamClient::emit(const FramePlan& plan, const ClientView& view, double fr
         json["encodeMs"] = image.encodeMs;
         json["final"] = image.final;
         if (const auto pinned = pending.prepared.needs.pinned) json["pinned"] = *pinned;
-        if (!image.note.empty()) json["note"] = image.note;
+        if (const auto note = joined(pending.prepared.note, image.note); !note.empty()) json["note"] = note;
         push(json, image.bytes);
         planner_.pictureSent(pending);
         ++timing.tiles;

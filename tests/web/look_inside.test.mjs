@@ -56,6 +56,21 @@ test("a preset changes all pictures with one press, is one undo step, and comes 
     assert.equal((await styleOf(page, "A1", "technique")).value, technique);
 });
 
+test("a picture that is empty because no surface lies inside the data carries a note", async () => {
+    assert.equal(await page.locator("[data-note-of]").count(), 0);
+    const style = (value) =>
+        page.evaluate((body) => fetch("api/v1/sheets/Sheet1/cells/A1", { method: "PATCH", body: JSON.stringify(body), headers: { "Content-Type": "application/json" } }).then((answer) => answer.status), value);
+    assert.equal(await style({ technique: "isosurface", isovalue: 1e6 }), 200);
+    const mark = page.locator('[data-note-of="A1"]');
+    await mark.waitFor();
+    assert.match(await mark.getAttribute("title"), /no surface is drawn: the data's values go from .* and the isovalue is 1e\+06/);
+    assert.match(await mark.getAttribute("aria-label"), /^Note on A1: no surface/);
+    assert.equal(await page.locator("[data-note-of]").count(), 1);
+    assert.equal(await style({ technique: null, isovalue: null }), 200);
+    await mark.waitFor({ state: "detached" });
+    await settled(page, cells);
+});
+
 test("another cell is fused into the pictures, which say so", async () => {
     const alone = await looks();
     await page.locator("#key-layers").fill("B1");

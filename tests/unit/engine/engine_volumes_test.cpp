@@ -196,6 +196,27 @@ TEST_F(EngineTest, TheColourBarMarksTheSurfacesAndExplainsWhatColoursThem) {
     EXPECT_FALSE(coloured.at("ticks").empty());
 }
 
+TEST_F(EngineTest, ATileWhoseSurfacesLieOutsideItsDataSaysSoAndIsNoError) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {8, 8, 8}, 40))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    view.all = {{"technique", std::string("isosurface")},
+                {"isovalue", sheet::NumberTable{{{10.0}}}},
+                {"range.mode", std::string("shared")}};
+    const auto prepare = [&](const sheet::Address& cell) {
+        return engine.prepareTile(*engine.snapshot(), "", cell, view, {});
+    };
+    EXPECT_EQ(prepare({0, 0}).note, "");
+    const PreparedTile other = prepare({1, 0});
+    ASSERT_TRUE(other.spec) << other.message;
+    EXPECT_NE(other.note.find("go from 40 to 40"), std::string::npos)
+        << "its own values, not those of the shared range: " << other.note;
+    view.all.erase("technique");
+    EXPECT_EQ(prepare({1, 0}).note, "");
+}
+
 TEST_F(EngineTest, AProbeSaysWhatLiesUnderThePixel) {
     Engine engine(options());
     const fs::path ramp = data / "a.nrrd";

@@ -167,5 +167,25 @@ TEST(IsosurfaceResolver, ValuesOutsideTheRangeAreKeptAsTheyAre) {
     EXPECT_EQ(spec.method, IsosurfaceMethod::AlphaTest);
 }
 
+TEST(IsosurfaceResolver, OnlySurfacesThatAllLieOutsideTheDataAreWorthANote) {
+    std::vector<float> values{0.0F, 5.0F, 10.0F};
+    const ValueSummary data = summaryOf(values);
+    const auto noteFor = [&](const std::vector<double>& isovalues) {
+        std::vector<Isosurface> surfaces;
+        for (const double value : isovalues)
+            surfaces.push_back({value, {}});
+        return emptySurfacesNote(surfaces, data);
+    };
+    EXPECT_EQ(noteFor({11.0}),
+              "no surface is drawn: the data's values go from 0 to 10, and the isovalue is 11; "
+              "set isovalue to a value between them");
+    EXPECT_NE(noteFor({-1.0, 12.5}).find("the isovalues are -1, 12.5"), std::string::npos);
+    EXPECT_EQ(noteFor({11.0, 5.0}), "");
+    EXPECT_EQ(noteFor({10.0}), "") << "the ends are inside";
+    EXPECT_EQ(noteFor({0.0}), "");
+    EXPECT_EQ(noteFor({}), "");
+    EXPECT_EQ(emptySurfacesNote({{11.0, {}}}, ValueSummary{}), "") << "there is no value at all";
+}
+
 } // namespace
 } // namespace voxsheet::engine
