@@ -1,6 +1,7 @@
 #include "gpu/workarounds.h"
 
 #include "base/errors.h"
+#include "gpu/egl_context.h"
 
 #include <array>
 
@@ -16,6 +17,7 @@ struct Named {
 constexpr std::array kKnown{
     Named{"clear-before-compute", &Workarounds::clearBeforeCompute},
     Named{"r8-as-r16", &Workarounds::r8AsR16},
+    Named{"coarse-filter-weights", &Workarounds::coarseFilterWeights},
 };
 
 void switchOff(Workarounds& workarounds, std::string_view name) {
@@ -47,6 +49,7 @@ Workarounds workaroundsFor(std::string_view renderer, std::string_view disabled)
         workarounds.clearBeforeCompute = true;
         workarounds.r8AsR16 = true;
     }
+    workarounds.coarseFilterWeights = !isSoftwareRenderer(std::string(renderer));
     while (!disabled.empty()) {
         const std::size_t comma = disabled.find(',');
         const std::string_view name = trimmed(disabled.substr(0, comma));

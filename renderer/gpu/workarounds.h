@@ -15,6 +15,10 @@ struct Workarounds {
     /// "r8-as-r16": llvmpipe filters R8 textures in 8-bit fixed point (256 levels out); 8-bit volumes become
     /// R16.
     bool r8AsR16 = false;
+    /// "coarse-filter-weights": GPUs weigh the samples of a filtered texel in steps of 1/256 voxel, which
+    /// moves grazing hits by half a voxel (seen on an NVIDIA H200); isosurfaces refine roots by interpolation
+    /// of their own.
+    bool coarseFilterWeights = false;
 
     bool operator==(const Workarounds&) const = default;
 };

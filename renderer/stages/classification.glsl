@@ -12,10 +12,13 @@ uniform vec2 mappedFromTexel; // value in the scale's own unit = texel * x + y
 uniform vec2 entryFromMapped; // entry = g(mapped) * x + y; g as in volume/transfer_function.h
 uniform float lastEntry;      // n + 1
 
-#if SHADER_FILTER
 uniform vec3 filterPeriodic; // 1 on axes that wrap
 
-float texelAt(vec3 position) { return filteredTexel(volume, position, filterPeriodic); }
+// By interpolation between samples in full precision, whatever the driver's filter does.
+float interpolatedTexel(vec3 position) { return filteredTexel(volume, position, filterPeriodic); }
+
+#if SHADER_FILTER
+float texelAt(vec3 position) { return interpolatedTexel(position); }
 #else
 float texelAt(vec3 position) { return textureLod(volume, position, 0.0).r; }
 #endif

@@ -77,7 +77,7 @@ bool cutNormal(Ray ray, KeptSpan span, float depth, float depthPerVoxel,
     }
 #endif
     if (span.cutPlane < 0 || depth - span.begin > depthPerVoxel) return false;
-    normal = cutNormals[span.cutPlane].xyz;
+    normal = cutNormals[max(span.cutPlane, 0)].xyz; // never below 0, but a compiler that knows of no planes (NVIDIA) refuses -1
     return true;
 }
 

@@ -1,6 +1,12 @@
 #include "stages/shared_stages.h"
 
+#include "gpu/context.h"
+
 namespace voxsheet {
+
+SharedStages::SharedStages(gpu::Context& gpuContext)
+    : context(gpuContext), programs(gpuContext), classification(gpuContext), emptySpace(gpuContext),
+      interpolateRootsInShader(gpuContext.workarounds().coarseFilterWeights) {}
 
 gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
     const auto& [tile, volumes, frame, target, rows] = request;

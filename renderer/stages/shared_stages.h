@@ -34,8 +34,7 @@ struct DrawRequest {
 };
 
 struct SharedStages {
-    explicit SharedStages(gpu::Context& gpuContext)
-        : context(gpuContext), programs(gpuContext), classification(gpuContext), emptySpace(gpuContext) {}
+    explicit SharedStages(gpu::Context& gpuContext);
 
     /// Of classification, clipping, shading and SKIP_EMPTY.
     [[nodiscard]] gpu::ShaderDefines definesFor(const DrawRequest& request) const;
@@ -49,6 +48,8 @@ struct SharedStages {
     bool skipEmptySpace = true;
     /// For drivers that do not filter 32-bit float textures.
     bool filterFloatsInShader = false;
+    /// For drivers whose filter weighs samples coarsely.
+    bool interpolateRootsInShader;
 };
 
 } // namespace voxsheet

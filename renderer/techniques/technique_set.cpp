@@ -145,4 +145,8 @@ void TechniqueSet::setShaderFiltering(bool enabled) {
     implementation_->stages.filterFloatsInShader = enabled;
 }
 
+void TechniqueSet::setRootInterpolation(bool enabled) {
+    implementation_->stages.interpolateRootsInShader = enabled;
+}
+
 } // namespace voxsheet

@@ -50,6 +50,9 @@ public:
     /// 32-bit float volumes are interpolated by the shader itself, for drivers that do not filter them; off
     /// by default.
     void setShaderFiltering(bool enabled);
+    /// Isosurfaces refine their crossings by interpolation of their own; by default only where the workaround
+    /// "coarse-filter-weights" is in force.
+    void setRootInterpolation(bool enabled);
 
 private:
     class Implementation;

@@ -116,6 +116,9 @@ TEST_F(RenderThreadTest, AnUrgentFrameGoesInBetweenTheBandsOfALargeTile) {
     auto large = largeTile(tile("ball"));
     large.sampleDistanceVoxels = 0.02; // longer than any other tile here
     const auto alone = draw(thread, frameOf({large}));
+    if (alone.tiles.at(0).renderMs < 100.0)
+        GTEST_SKIP() << "this device draws the largest tile in " << alone.tiles.at(0).renderMs
+                     << " ms: it has no bands";
     std::atomic<int> looks{0};
     auto last = thread.submit(frameOf({large}), FramePriority::Final, [&] {
         ++looks;

@@ -11,6 +11,7 @@ namespace {
 
 [[noreturn]] void makeContextWithoutVendors() {
     // The vendor-neutral libEGL finds no driver there, as on a machine without libgl1-mesa-dri.
+    unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES"); // goes before folders
     setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
     try {
         const Context context;

@@ -98,9 +98,11 @@ TEST_F(IsosurfaceHits, AreTheRootsWithNoHolesOnEveryFormat) {
                 "%-22s farthest from its root %.4f voxel; normal off by %.3f (six taps), %.3f (texture) "
                 "degrees\n",
                 key.c_str(), voxels, taps, texture);
+            // Gradients come through the filter: weights in steps of 1/256 voxel turn them.
+            const double degrees = format.degrees + (painter.filtersExactly() ? 0.0 : 0.2);
             EXPECT_LE(voxels, format.voxels + measuredPositionError(grid) / meanVoxelEdgeWorld(grid)) << key;
-            EXPECT_LE(taps, format.degrees) << key;
-            EXPECT_LE(texture, format.degrees) << key;
+            EXPECT_LE(taps, degrees) << key;
+            EXPECT_LE(texture, degrees) << key;
         }
 }
 

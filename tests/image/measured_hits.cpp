@@ -12,13 +12,14 @@ namespace {
 constexpr double kReachRadii = 1.05; ///< of the measured cube about the volume, each way
 constexpr int kWindows = 4;          ///< per axis
 constexpr int kWindowSteps = 8192;   ///< entries of a window's table
+constexpr int kCubeSamples = 64;     ///< per axis: GPUs place a point to 1/256 of their distance only
 
-/// Two samples per axis, on the faces of a cube about the grid's box.
+/// Samples from face to face of a cube about the grid's box.
 Grid cubeAround(const Grid& grid) {
     const double reach = kReachRadii * boundingRadiusWorld(grid);
     Grid cube;
-    cube.dims = glm::ivec3(2);
-    cube.worldFromIndex = glm::dmat4(2.0 * reach);
+    cube.dims = glm::ivec3(kCubeSamples);
+    cube.worldFromIndex = glm::dmat4(2.0 * reach / (kCubeSamples - 1));
     cube.worldFromIndex[3] = glm::dvec4(centreWorld(grid) - reach, 1.0);
     return cube;
 }
@@ -27,8 +28,9 @@ Grid cubeAround(const Grid& grid) {
 std::string addAxis(TilePainter& painter, const Grid& cube, const TileSpec& tile, int axis) {
     fields::AnalyticField ramp;
     ramp.name = "axis";
-    // The samples sit at -1/2 and 1/2 of sampleField's cube.
-    ramp.value = [axis](const glm::dvec3& p) { return p[axis] + 0.5; };
+    // The first and the last sample sit at -low and low of sampleField's cube.
+    constexpr double low = 1.0 - 1.0 / kCubeSamples;
+    ramp.value = [axis](const glm::dvec3& p) { return 0.5 * p[axis] / low + 0.5; };
     const auto key = "axis " + std::to_string(axis) + " about " + tile.dataset;
     auto sampled = fields::sampleField(ramp, cube, ScalarType::F32, key);
     painter.volumes().add(std::move(sampled.meta), std::move(sampled.arrays));
@@ -60,7 +62,7 @@ std::vector<fields::FirstHit> measuredPositions(TilePainter& painter, TileSpec t
     const auto cube = cubeAround(painter.provider().describe(tile.dataset)->grid);
     makeOpaque(tile);
     tile.shading.enabled = false;
-    const double edge = cube.worldFromIndex[0][0];
+    const double edge = cube.worldFromIndex[0][0] * (kCubeSamples - 1);
     std::vector<fields::FirstHit> hits;
     for (int axis = 0; axis < 3; ++axis) {
         const auto key = addAxis(painter, cube, tile, axis);

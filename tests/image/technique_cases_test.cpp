@@ -87,7 +87,9 @@ TEST_F(TechniqueCases, SkippingEmptySpaceChangesNoPixel) {
             painter.techniques().setEmptySpaceSkipping(false);
             const auto whole = painter.draw(tile);
             painter.techniques().setEmptySpaceSkipping(true);
-            EXPECT_EQ(skipped.pixels, whole.pixels) << fields::nameOf(technique) << " at " << distance;
+            const bool same = painter.filtersExactly() ? skipped.pixels == whole.pixels
+                                                       : fields::difference(skipped, whole).psnr > 100.0;
+            EXPECT_TRUE(same) << fields::nameOf(technique) << " at " << distance;
             EXPECT_GT(fields::difference(skipped, whole).pixels, 100U)
                 << fields::nameOf(technique) << " at " << distance;
         }

@@ -30,6 +30,10 @@ public:
     [[nodiscard]] TechniqueSet& techniques() { return techniques_; }
     [[nodiscard]] ResidencyManager& residency() { return residency_; }
 
+    /// Mesa's software renderers filter in 32-bit floats and round alike in every program. GPUs weigh samples
+    /// in steps of 1/256 voxel, and what one program fuses another may not.
+    [[nodiscard]] bool filtersExactly() const { return context_.device().software; }
+
     /// The picture of tile.dataset, field, step and level.
     [[nodiscard]] fields::Picture draw(const TileSpec& tile);
     /// Milliseconds of the last draw(), from its start to the pixels on the host; uploads not included.

@@ -66,6 +66,7 @@ gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& requ
     defines.insert(defines.end(), colours.begin(), colours.end());
     defines.emplace_back("CHUNK_SAMPLES",
                          std::to_string(chunkSamples(tile.sampleDistanceVoxels, kShortReach)));
+    defines.emplace_back("EXACT_ROOTS", stages.interpolateRootsInShader ? "1" : "0");
     defines.emplace_back("CAPS", tile.isosurface.caps ? "1" : "0");
     defines.emplace_back("SURFACES", std::to_string(tile.isosurface.surfaces.size()));
     defines.emplace_back("ALPHA_TEST", tile.isosurface.method == IsosurfaceMethod::AlphaTest ? "1" : "0");

@@ -4,6 +4,7 @@
 //   CAPS           1: cuts close what they open
 //   ALPHA_TEST     1: the plain test, with its gaps
 //   SURFACES       how many there are
+//   EXACT_ROOTS    1: crossings are refined in the shader's own interpolation, for filters with coarse weights
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
@@ -53,16 +54,33 @@ int chunksAhead(Path path, float middle) {
 #endif
 }
 
+// The texel that crossings are refined by.
+float refinedTexelAt(Path path, float depth) {
+#if EXACT_ROOTS
+    return interpolatedTexel(path.ray.origin + depth * path.ray.direction);
+#else
+    return texelAtDepth(path, depth);
+#endif
+}
+
 // Where the texel is `texel` between two depths that lie on both sides of it: by false position, with the weight of an end that
 // stays halved (Illinois; Dowell & Jarratt 1971), until it is enclosed to kRefinedVoxels or two guesses in turn lie within an eighth of that.
 float refinedDepth(Path path, float texel, float near, float far, float atNear, float atFar) {
     float wanted = kRefinedVoxels * path.depthPerVoxel;
     float a = near, b = far, fa = atNear - texel, fb = atFar - texel;
+#if EXACT_ROOTS
+    float exactNear = refinedTexelAt(path, near) - texel, exactFar = refinedTexelAt(path, far) - texel;
+    // Else the crossing lies within the filter's error of an end, to which the search then goes.
+    if ((exactNear < 0.0) != (exactFar < 0.0)) {
+        fa = exactNear;
+        fb = exactFar;
+    }
+#endif
     float guess = a + (b - a) * clamp(fa / (fa - fb), 0.0, 1.0);
     float moved = b - a;
     float side = 0.0; // of the last guess
     for (int i = 0; i < 12 && min(b - a, 8.0 * moved) > wanted; ++i) {
-        float f = texelAtDepth(path, guess) - texel;
+        float f = refinedTexelAt(path, guess) - texel;
         bool before = (f < 0.0) == (fa < 0.0);
         float kept = side == (before ? 1.0 : -1.0) ? 0.5 : 1.0;
         side = before ? 1.0 : -1.0;
@@ -121,7 +139,7 @@ void showEntryCap(inout Light light, Path path) {
     if (keptMeasure(path.clip, path.span.begin) < 0.0) return;
 #endif
 #if SHADING
-    showCap(light, path, path.span.begin, cutNormals[path.span.cutPlane].xyz);
+    showCap(light, path, path.span.begin, cutNormals[max(path.span.cutPlane, 0)].xyz);
 #else
     showCap(light, path, path.span.begin, vec3(0.0));
 #endif

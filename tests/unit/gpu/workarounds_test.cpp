@@ -11,7 +11,8 @@ constexpr const char* kLlvmpipe = "llvmpipe (LLVM 15.0.6, 256 bits)";
 
 TEST(Workarounds, AreOnForTheDriversThatNeedThem) {
     EXPECT_EQ(workaroundsFor(kLlvmpipe, ""), (Workarounds{true, true}));
-    EXPECT_EQ(workaroundsFor("NVIDIA H100 PCIe/PCIe/SSE2", ""), (Workarounds{false, false}));
+    EXPECT_EQ(workaroundsFor("NVIDIA H100 PCIe/PCIe/SSE2", ""), (Workarounds{false, false, true}));
+    EXPECT_EQ(workaroundsFor("NVIDIA H200/PCIe/SSE2", "coarse-filter-weights"), Workarounds{});
 }
 
 TEST(Workarounds, CanBeSwitchedOffByName) {
