@@ -98,8 +98,10 @@ TEST_F(IsosurfaceHits, AreTheRootsWithNoHolesOnEveryFormat) {
                 "%-22s farthest from its root %.4f voxel; normal off by %.3f (six taps), %.3f (texture) "
                 "degrees\n",
                 key.c_str(), voxels, taps, texture);
-            // Gradients come through the filter: weights in steps of 1/256 voxel turn them.
-            const double degrees = format.degrees + (painter.filtersExactly() ? 0.0 : 0.2);
+            // Gradients come through the filter: weights in steps of 1/256 voxel turn them, most where the
+            // field bends within a voxel.
+            const double coarse = field.name == "Marschner-Lobb" ? 1.5 : 0.2;
+            const double degrees = format.degrees + (painter.filtersExactly() ? 0.0 : coarse);
             EXPECT_LE(voxels, format.voxels + measuredPositionError(grid) / meanVoxelEdgeWorld(grid)) << key;
             EXPECT_LE(taps, degrees) << key;
             EXPECT_LE(texture, degrees) << key;

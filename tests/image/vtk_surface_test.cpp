@@ -114,8 +114,8 @@ TEST_P(VtkSurface, VerticesAndNormalsAreWhatRaysAlongEdgesMeet) {
         EXPECT_GT(compared, 300U);
         // What refinement promises, and VTK's 32-bit floats.
         EXPECT_LE(farthest, 0.01 + measuredPositionError(grid)) << field.name;
-        // 16-bit floats of the gradient texture.
-        EXPECT_LE(degrees, 0.2) << field.name;
+        // 16-bit floats of the gradient texture; weights of GPUs' filters in steps of 1/256 voxel.
+        EXPECT_LE(degrees, painter.filtersExactly() ? 0.2 : 0.6) << field.name;
     }
 }
 
