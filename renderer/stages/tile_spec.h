@@ -4,6 +4,7 @@
 
 #include "stages/isosurface_spec.h"
 #include "stages/layer_spec.h"
+#include "stages/plane_spec.h"
 #include "stages/shading_spec.h"
 #include "volume/clip.h"
 #include "volume/texture_encoding.h"
@@ -16,7 +17,7 @@
 
 namespace voxsheet {
 
-enum class Technique { Slices, Raycast, Mip, Surface, Isosurface };
+enum class Technique { Slices, Raycast, Mip, Surface, Isosurface, Plane };
 
 enum class Projection { Perspective, Orthographic };
 
@@ -41,10 +42,11 @@ struct TileSpec {
     double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
-    ClipSpec clip;                                ///< holds for every technique
-    ShadingSpec shading;                          ///< not for Mip
+    ClipSpec clip;                                ///< not for Plane
+    ShadingSpec shading;                          ///< not for Mip and Plane
     IsosurfaceSpec isosurface;                    ///< Isosurface only
     LayersSpec layers;                            ///< Raycast only
+    PlaneSpec plane;                              ///< Plane only, which needs an orthographic camera
     FloatTexels floatTexels = FloatTexels::Full;
 };
 

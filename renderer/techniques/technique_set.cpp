@@ -5,6 +5,7 @@
 #include "stages/shared_stages.h"
 #include "techniques/isosurface/isosurface.h"
 #include "techniques/mip/mip.h"
+#include "techniques/plane/plane.h"
 #include "techniques/raycast/raycast.h"
 #include "techniques/slicing/slicing.h"
 #include "techniques/surface/surface.h"
@@ -54,6 +55,7 @@ void validate(const TileSpec& tile) {
     validateShading(tile.shading);
     validateIsosurface(tile.isosurface);
     validateLayers(tile);
+    validatePlane(tile.plane);
 }
 
 void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
@@ -135,6 +137,9 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
         break;
     case Technique::Isosurface:
         drawIsosurface(stages, request);
+        break;
+    case Technique::Plane:
+        drawPlane(stages, request);
         break;
     }
     stages.context.checkErrors("drawing a tile");

@@ -25,7 +25,7 @@ Part drawnPart(const TileSpec& tile, int level) {
 }
 
 std::optional<Part> clipPart(const TileSpec& tile, int level) {
-    if (!tile.clip.object) return std::nullopt;
+    if (!tile.clip.object || tile.technique == Technique::Plane) return std::nullopt;
     return Part{{tile.clip.object->dataset, 0, 0, level}, FloatTexels::Full, SamplesUse::Clipping};
 }
 

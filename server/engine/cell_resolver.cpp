@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "engine/axis_ticks.h"
 #include "engine/clip_resolver.h"
+#include "engine/plane_resolver.h"
 #include "engine/shading_resolver.h"
 #include "sheet/camera.h"
 
@@ -97,6 +98,8 @@ Technique drawnTechnique(sheet::Technique technique) {
         return Technique::Surface;
     case sheet::Technique::Isosurface:
         return Technique::Isosurface;
+    case sheet::Technique::Plane:
+        return Technique::Plane;
     case sheet::Technique::Raycast:
         break;
     }
@@ -244,13 +247,18 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     const int wanted = style.level.value_or(std::max(level, static_cast<int>(style.quality)));
     spec.level = std::clamp(wanted, 0, meta.levels() - 1);
     spec.technique = drawnTechnique(style.technique);
-    spec.camera = resolveCamera(style.camera, meta.grid, sizePixels);
+    const bool flat = style.technique == sheet::Technique::Plane;
+    spec.camera = flat ? resolvePlaneCamera(style.plane, style.camera, meta, sizePixels)
+                       : resolveCamera(style.camera, meta.grid, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
     spec.background = glm::vec4(opaqueOf(style.background));
     spec.sizePixels = sizePixels;
-    spec.clip.planes = resolveClipPlanes(style.clip, meta.grid);
+    if (flat)
+        spec.plane = resolvePlane(style.plane, meta.grid);
+    else
+        spec.clip.planes = resolveClipPlanes(style.clip, meta.grid);
     spec.shading = resolveShading(style, spec.camera);
     spec.floatTexels =
         style.textureFormat == sheet::TextureFormat::Half ? FloatTexels::Half : FloatTexels::Full;

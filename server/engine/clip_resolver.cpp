@@ -1,11 +1,11 @@
 #include "engine/clip_resolver.h"
 
 #include "base/errors.h"
+#include "engine/box_extent.h"
 #include "engine/unit_vector.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -16,32 +16,6 @@ namespace {
 constexpr double kLargestEntry = 1e30; ///< of a matrix that floats are to hold
 /// Of the box's extent along a normal: a plane this close to a face of the box is that face.
 constexpr double kFaceTolerance = 1e-9;
-
-glm::dvec3 cornerWorld(const Grid& grid, const IndexBox& box, int corner) {
-    const glm::dvec3 index((corner & 1) != 0 ? box.high.x : box.low.x,
-                           (corner & 2) != 0 ? box.high.y : box.low.y,
-                           (corner & 4) != 0 ? box.high.z : box.low.z);
-    return glm::dvec3(grid.worldFromIndex * glm::dvec4(index, 1.0));
-}
-
-/// From the box's first corner along a normal to its last.
-struct Extent {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-
-    [[nodiscard]] double length() const { return high - low; }
-};
-
-Extent extentAlong(const glm::dvec3& normal, const Grid& grid) {
-    const IndexBox box = boxIndex(grid);
-    Extent extent;
-    for (int corner = 0; corner < 8; ++corner) {
-        const double at = glm::dot(normal, cornerWorld(grid, box, corner));
-        extent.low = std::min(extent.low, at);
-        extent.high = std::max(extent.high, at);
-    }
-    return extent;
-}
 
 /// \param position  fraction of the box along the normal, or world units
 void addPlane(std::vector<ClipPlane>& planes, const glm::dvec3& normal, double position,

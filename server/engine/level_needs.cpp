@@ -25,7 +25,8 @@ double nearestDepthWorld(const Grid& grid, const CameraSpec& camera) {
 
 bool hasGradientTexture(const TileSpec& tile) {
     return tile.shading.enabled && tile.shading.gradient == GradientSource::Texture &&
-           tile.technique != Technique::Mip && tile.technique != Technique::Surface;
+           tile.technique != Technique::Mip && tile.technique != Technique::Surface &&
+           tile.technique != Technique::Plane;
 }
 
 std::string volumeName(const std::string& dataset, int field, int step, FloatTexels floatTexels) {

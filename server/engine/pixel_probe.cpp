@@ -64,6 +64,7 @@ public:
             return face();
         case Technique::Mip:
             return largest();
+        case Technique::Plane: // planeHit(), which asks nothing of what clipping keeps
         case Technique::Slices:
         case Technique::Raycast:
             break;
@@ -191,10 +192,30 @@ private:
     double step_ = 0.0; ///< half a voxel of the level at most
 };
 
+/// As renderer/techniques/plane/plane.h.
+std::optional<PixelHit> planeHit(const PlaneSpec& plane, const Grid& grid, const Ray& ray) {
+    constexpr double edgeOn = 1e-9;
+    constexpr double faceSlack = 1e-5; // texture frame
+    const double advance = glm::dot(plane.normal, ray.direction);
+    if (std::abs(advance) < edgeOn) return std::nullopt;
+    const double depth = (plane.offset - glm::dot(plane.normal, ray.origin)) / advance;
+    glm::dvec3 index(glm::inverse(grid.worldFromIndex) * glm::dvec4(ray.at(depth), 1.0));
+    const IndexBox box = boxIndex(grid);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double slack = faceSlack * grid.dims[axis];
+        if (index[axis] < box.low[axis] - slack || index[axis] > box.high[axis] + slack) return std::nullopt;
+    }
+    // A plane in a face of the box has values: what rounding put beyond it lies on it.
+    index = glm::clamp(index, box.low, box.high);
+    return PixelHit{glm::dvec3(grid.worldFromIndex * glm::dvec4(index, 1.0)), HitKind::Face, {}, depth};
+}
+
 } // namespace
 
 std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes, glm::dvec2 pixel,
                                  std::optional<double> opacity) {
+    if (tile.technique == Technique::Plane)
+        return planeHit(tile.plane, volumes.grid, pixelRay(tile.camera, pixel, tile.sizePixels));
     return RayProbe(tile, volumes, pixel).hit(opacity);
 }
 

@@ -15,7 +15,7 @@ namespace voxsheet::engine {
 
 enum class HitKind {
     Isosurface, ///< a surface of the isosurface technique
-    Face,       ///< a face of the box, a cut, or the surface of a clip object
+    Face,       ///< a face of the box, a cut, the surface of a clip object, or technique plane's plane
     Sample,     ///< a sample of a volume
     Middle      ///< nothing along the ray is opaque enough: the kept point nearest to the middle of the box
 };
@@ -35,10 +35,10 @@ struct ProbedVolumes {
 };
 
 /// The point that the eye sees, among what clipping keeps: an isosurface's first crossing (or a cap before
-/// it); the face that technique surface shows; maximum intensity projection's largest sample; of volume
-/// rendering the first sample of at least the given opacity, or where the accumulated opacity passes one
-/// half. Empty where the ray meets nothing.
-/// \param opacity  per unit length, as in the transfer function
+/// it); the face that technique surface shows; maximum intensity projection's largest sample; the point of
+/// technique plane's plane; of volume rendering the first sample of at least the given opacity, or where the
+/// accumulated opacity passes one half. Empty where the ray meets nothing. \param opacity  per unit length,
+/// as in the transfer function
 [[nodiscard]] std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes,
                                                glm::dvec2 pixel, std::optional<double> opacity = {});
 

@@ -7,7 +7,7 @@ namespace voxsheet::engine {
 namespace {
 
 bool isShaded(const sheet::TypedStyle& style) {
-    if (style.technique == sheet::Technique::Mip) return false;
+    if (style.technique == sheet::Technique::Mip || style.technique == sheet::Technique::Plane) return false;
     switch (style.shading.model) {
     case sheet::ShadingModel::None:
         return false;

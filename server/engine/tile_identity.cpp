@@ -100,7 +100,8 @@ void addClip(Collector& collector, const ClipSpec& clip) {
 
 void addShading(Collector& collector, const TileSpec& tile) {
     const ShadingSpec& shading = tile.shading;
-    const bool shaded = shading.enabled && tile.technique != Technique::Mip;
+    const bool shaded =
+        shading.enabled && tile.technique != Technique::Mip && tile.technique != Technique::Plane;
     collector.add(shaded ? 1.0 : 0.0);
     if (!shaded) return;
     // Faces have normals of their own.
@@ -149,6 +150,12 @@ void addLayers(Collector& collector, const LayersSpec& layers) {
     }
 }
 
+void addPlane(Collector& collector, const PlaneSpec& plane) {
+    collector.add(plane.normal);
+    collector.add(plane.offset);
+    collector.add(static_cast<double>(plane.interpolation));
+}
+
 /// What the technique makes of the transfer table.
 void addColours(Collector& collector, const TileSpec& tile) {
     switch (tile.technique) {
@@ -168,6 +175,10 @@ void addColours(Collector& collector, const TileSpec& tile) {
         if (tile.isosurface.caps) addTable(collector, *tile.transfer, TableUse::Colours);
         addIsosurface(collector, tile.isosurface);
         break;
+    case Technique::Plane:
+        addTable(collector, *tile.transfer, TableUse::Colours);
+        addPlane(collector, tile.plane);
+        break;
     }
 }
 
@@ -183,9 +194,11 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
     collector.add(static_cast<double>(tile.technique));
     addCamera(collector, tile.camera);
     addColours(collector, tile);
-    addClip(collector, tile.clip);
+    if (tile.technique != Technique::Plane) { // Nothing clips a plane, and each ray meets it once.
+        addClip(collector, tile.clip);
+        collector.add(tile.sampleDistanceVoxels);
+    }
     addShading(collector, tile);
-    collector.add(tile.sampleDistanceVoxels);
     collector.add(static_cast<double>(tile.floatTexels));
     collector.add(tile.background);
     collector.add(tile.sizePixels.x);

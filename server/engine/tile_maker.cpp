@@ -75,7 +75,8 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
 
 void TileMaker::findClipObject(CellLook& look, const NamingCell& from) {
     const sheet::TypedStyle& style = look.resolved.style;
-    if (style.clip.shape.empty()) {
+    const bool clips = style.technique != sheet::Technique::Plane && !style.clip.shape.empty();
+    if (!clips) {
         named_.releaseClipObject(from);
     } else {
         auto object = named_.clipObject(style.clip.shape, from);

@@ -31,6 +31,7 @@ struct RowsShape {
 [[nodiscard]] KeySpec when(KeySpec key, std::string other, std::vector<std::string> values);
 
 void addIsosurfaceKeys(std::vector<KeySpec>& keys);
+void addPlaneKeys(std::vector<KeySpec>& keys);
 void addClipKeys(std::vector<KeySpec>& keys);
 void addLayerKeys(std::vector<KeySpec>& keys);
 void addLightKeys(std::vector<KeySpec>& keys);

@@ -1,4 +1,4 @@
-// Keys that look inside a volume: isosurfaces, further volumes, clipping, light.
+// Keys that look inside a volume: isosurfaces, planes, further volumes, clipping, light.
 #include "sheet/style_key_builders.h"
 
 namespace voxsheet::sheet {
@@ -32,6 +32,31 @@ void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
     add(choice(
         "isosurface.method", {"refined", "alphatest"}, "refined", group,
         "Crossings found and refined, or, for comparison, the plain test per sample, which leaves gaps."));
+}
+
+void addPlaneKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Plane";
+    const std::vector<std::string> plane{"plane"};
+    keys.push_back(
+        when(choice("plane.axis", {"axial", "coronal", "sagittal", "custom"}, "axial", group,
+                    "The plane's normal: z (axial), y (coronal), x (sagittal) of the world, or plane.normal. "
+                    "Patients (RAS+ axes) are shown as radiologists do, their right on the left of the "
+                    "picture, sagittal planes from their left; other data with x or y to the right and y or "
+                    "z up. camera.distance zooms (3.9 shows all), camera.target moves the picture, the "
+                    "camera's angles and clip keys do nothing here."),
+             "technique", plane));
+    KeySpec normal = typed("plane.normal", KeyType::Vector3, glm::dvec3(0.0, 0.0, 1.0), group, "vector",
+                           "Normal of a custom plane along the world axes, towards the eye; z is up in the "
+                           "picture, or y where the normal is z.");
+    normal.min = -1e6;
+    normal.max = 1e6;
+    keys.push_back(when(std::move(normal), "plane.axis", {"custom"}));
+    keys.push_back(when(number("plane.position", "of the box", 0, 1, 0.5, group,
+                               "Where the plane lies: 0 to 1 through the drawn box along the normal."),
+                        "technique", plane));
+    keys.push_back(when(choice("plane.interpolation", {"linear", "nearest"}, "linear", group,
+                               "Values between samples, or the samples as they are, voxel by voxel."),
+                        "technique", plane));
 }
 
 void addLayerKeys(std::vector<KeySpec>& keys) {

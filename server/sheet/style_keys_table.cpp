@@ -11,10 +11,11 @@ namespace voxsheet::sheet {
 namespace {
 
 void addTechnique(std::vector<KeySpec>& keys) {
-    keys.push_back(
-        choice("technique", {"slices", "raycast", "mip", "surface", "isosurface"}, "raycast", "Technique",
-               "How the volume is drawn: view-aligned slices blended back to front, a ray through every "
-               "pixel, the largest value along each ray, the outer and cut faces, or isosurfaces."));
+    keys.push_back(choice(
+        "technique", {"slices", "raycast", "mip", "surface", "isosurface", "plane"}, "raycast", "Technique",
+        "How the volume is drawn: view-aligned slices blended back to front, a ray through every "
+        "pixel, the largest value along each ray, the outer and cut faces, isosurfaces, or one plane through "
+        "the volume in a flat view."));
 }
 
 void addCamera(std::vector<KeySpec>& keys) {
@@ -163,6 +164,7 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     std::vector<KeySpec> keys;
     addTechnique(keys);
     addIsosurfaceKeys(keys);
+    addPlaneKeys(keys);
     addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
     addLayerKeys(keys);

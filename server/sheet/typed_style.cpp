@@ -65,10 +65,9 @@ private:
 using Words2 = std::array<std::string_view, 2>;
 using Words3 = std::array<std::string_view, 3>;
 using Words4 = std::array<std::string_view, 4>;
-using Words5 = std::array<std::string_view, 5>;
 using Words6 = std::array<std::string_view, 6>;
 
-constexpr Words5 kTechniques{"slices", "raycast", "mip", "surface", "isosurface"};
+constexpr Words6 kTechniques{"slices", "raycast", "mip", "surface", "isosurface", "plane"};
 constexpr Words2 kProjections{"perspective", "orthographic"};
 constexpr Words4 kShapes{"piecewise", "linear", "exponential", "parabolic"};
 constexpr Words6 kRangeModes{"auto", "own", "shared", "fixed", "percentile", "symmetric"};
@@ -84,6 +83,8 @@ constexpr Words3 kShadingModels{"auto", "none", "phong"};
 constexpr Words3 kGradients{"auto", "texture", "onthefly"};
 constexpr Words2 kLightFrames{"view", "world"};
 constexpr Words2 kTextureFormats{"auto", "half"};
+constexpr Words4 kPlaneAxes{"axial", "coronal", "sagittal", "custom"};
+constexpr Words2 kPlaneInterpolations{"linear", "nearest"};
 
 CameraStyle cameraOf(const Reader& read) {
     CameraStyle camera;
@@ -156,6 +157,15 @@ LayersStyle layersOf(const Reader& read) {
     return {read.find<std::string>("layers").value_or(""), columnOf(read.rows("layers.weights"))};
 }
 
+PlaneStyle planeOf(const Reader& read) {
+    PlaneStyle plane;
+    plane.axis = read.choice<PlaneAxis>("plane.axis", kPlaneAxes);
+    plane.normal = read.get<glm::dvec3>("plane.normal");
+    plane.position = read.get<double>("plane.position");
+    plane.interpolation = read.choice<PlaneInterpolation>("plane.interpolation", kPlaneInterpolations);
+    return plane;
+}
+
 ShadingStyle shadingOf(const Reader& read) {
     ShadingStyle shading;
     shading.model = read.choice<ShadingModel>("shading.model", kShadingModels);
@@ -197,6 +207,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
     style.layers = layersOf(read);
+    style.plane = planeOf(read);
     style.shading = shadingOf(read);
     style.light = lightOf(read);
     style.textureFormat = read.choice<TextureFormat>("texture.format", kTextureFormats);
@@ -252,6 +263,12 @@ void requireClipConsistent(const ClipStyle& clip) {
                 .withField("clip.transform");
 }
 
+void requirePlaneConsistent(const PlaneStyle& plane) {
+    if (plane.axis == PlaneAxis::Custom && isZero(plane.normal))
+        throw InvalidInput("plane.normal", "it has no length", "give a direction such as 1,0,1")
+            .withField("plane.normal");
+}
+
 void requireLightConsistent(const LightStyle& light) {
     for (const auto& direction : light.directions)
         if (isZero(direction))
@@ -271,6 +288,7 @@ void requireConsistent(const TypedStyle& style) {
             .withField("transfer.cut1");
     requireRangeConsistent(style.range);
     requireClipConsistent(style.clip);
+    requirePlaneConsistent(style.plane);
     requireLightConsistent(style.light);
 }
 

@@ -14,7 +14,7 @@
 
 namespace voxsheet::sheet {
 
-enum class Technique { Slices, Raycast, Mip, Surface, Isosurface };
+enum class Technique { Slices, Raycast, Mip, Surface, Isosurface, Plane };
 enum class Projection { Perspective, Orthographic };
 enum class RangeMode { Auto, Own, Shared, Fixed, Percentile, Symmetric };
 /// Level of detail of a picture at rest: full = level 0, half = level 1, quarter = level 2, eighth = level 3
@@ -123,6 +123,19 @@ struct LayersStyle {
     bool operator==(const LayersStyle&) const = default;
 };
 
+/// Normals along z, y and x of the world, or PlaneStyle::normal.
+enum class PlaneAxis { Axial, Coronal, Sagittal, Custom };
+enum class PlaneInterpolation { Linear, Nearest };
+
+/// The cut that technique plane shows.
+struct PlaneStyle {
+    PlaneAxis axis = PlaneAxis::Axial;
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< Custom: along the world axes, not zero, of any length
+    double position = 0.5; ///< from 0 at the drawn box's first corner along the normal to 1 at its last
+    PlaneInterpolation interpolation = PlaneInterpolation::Linear;
+    bool operator==(const PlaneStyle&) const = default;
+};
+
 enum class ShadingModel { Auto, None, Phong }; ///< Auto: Phong for isosurfaces, none otherwise
 enum class GradientSource { Auto, Texture, OnTheFly };
 enum class LightFrame { View, World };
@@ -163,6 +176,7 @@ struct TypedStyle {
     ClipStyle clip;
     IsosurfaceStyle isosurface;
     LayersStyle layers;
+    PlaneStyle plane;
     ShadingStyle shading;
     LightStyle light;
     TextureFormat textureFormat = TextureFormat::Auto;
@@ -175,7 +189,8 @@ struct TypedStyle {
 };
 
 /// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100];
-/// normals, directions and scales not zero; clip.box low < high. Throws InvalidInput with the field at fault.
+/// normals (of a plane only where plane.axis is custom), directions and scales not zero; clip.box low < high.
+/// Throws InvalidInput with the field at fault.
 void requireConsistent(const TypedStyle& style);
 
 } // namespace voxsheet::sheet

@@ -142,6 +142,28 @@ glm::dvec4 facePixel(const RayTruth& ray) {
     return {ray.lit(glm::dvec3(classify(*ray.tile.transfer, value)), hit->normal), 1.0};
 }
 
+glm::dvec4 planePixel(const RayTruth& ray) {
+    const auto& plane = ray.tile.plane;
+    const auto& grid = ray.sources.grid;
+    const double advance = glm::dot(plane.normal, ray.ray.direction);
+    if (advance == 0.0) return glm::dvec4(0.0);
+    const auto point = ray.ray.at((plane.offset - glm::dot(plane.normal, ray.ray.origin)) / advance);
+    const auto index = glm::dvec3(glm::inverse(grid.worldFromIndex) * glm::dvec4(point, 1.0));
+    const auto box = boxIndex(grid);
+    const auto slack = 1e-5 * glm::dvec3(grid.dims);
+    if (glm::any(glm::lessThan(index, box.low - slack)) ||
+        glm::any(glm::greaterThan(index, box.high + slack)))
+        return glm::dvec4(0.0);
+    const auto texture = (index + 0.5) / glm::dvec3(grid.dims);
+    const double value = plane.interpolation == PlaneInterpolation::Nearest ? ray.sources.nearest(texture)
+                                                                            : ray.sources.value(texture);
+    if (std::isnan(value)) {
+        const glm::dvec4 nan(ray.tile.transfer->nan);
+        return {glm::dvec3(nan) * nan.w, nan.w};
+    }
+    return {glm::dvec3(classify(*ray.tile.transfer, value)), 1.0};
+}
+
 bool isInside(const IsosurfaceSpec& spec, double value) {
     double positive = std::numeric_limits<double>::infinity();
     double negative = -positive;
@@ -212,7 +234,8 @@ glm::dvec4 isosurfacePixel(const RayTruth& ray) {
 }
 
 glm::dvec4 pixelOf(const RayTruth& ray) {
-    if (!(ray.range.begin < ray.range.end)) return glm::dvec4(0.0);
+    // Clipping, which the range heeds, is nothing to a plane.
+    if (!(ray.range.begin < ray.range.end) && ray.tile.technique != Technique::Plane) return glm::dvec4(0.0);
     Light light;
     const auto take = [&](double begin, double end) { addStretch(light, ray, begin, end); };
     switch (ray.tile.technique) {
@@ -228,6 +251,8 @@ glm::dvec4 pixelOf(const RayTruth& ray) {
         return facePixel(ray);
     case Technique::Isosurface:
         return isosurfacePixel(ray);
+    case Technique::Plane:
+        return planePixel(ray);
     }
     return light.pixel();
 }

@@ -42,6 +42,8 @@ const char* nameOf(Technique technique) {
         return "mip";
     case Technique::Surface:
         return "surface";
+    case Technique::Plane:
+        return "plane";
     case Technique::Isosurface:
         break;
     }

@@ -41,6 +41,7 @@ Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
     sources.grid = meta->grid;
     sources.levelDims = interpolant->dims();
     sources.value = valuesOf(interpolant);
+    sources.nearest = [interpolant](const glm::dvec3& texture) { return interpolant->nearest(texture); };
     sources.indexSlope = tile.shading.gradient == GradientSource::Texture
                              ? textureSlope(sources.value, sources.levelDims, meta->grid.periodic)
                              : onTheFlySlope(sources.value, sources.levelDims, meta->grid.periodic);

@@ -50,6 +50,7 @@ struct Sources {
     std::optional<ClipSource> clip;     ///< for tile.clip.object
     std::optional<ColourSource> colour; ///< for tile.isosurface.colouredBy
     std::vector<LayerSource> layers;    ///< for tile.layers, in their order
+    ValueAt nearest;                    ///< of the nearest sample: for planes
 };
 
 /// Everything that `tile` names, read through the provider: trilinear interpolants of the stored samples, and

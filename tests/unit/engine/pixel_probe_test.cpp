@@ -121,6 +121,30 @@ TEST(PixelProbe, AMaximumProjectionAnswersWithTheLargestKeptValue) {
     EXPECT_FALSE(scene.hit()) << "everything is cut away";
 }
 
+TEST(PixelProbe, APlaneIsHitWhereItCutsTheBoxWhateverIsClipped) {
+    Scene scene(alongZ);
+    scene.tile.technique = Technique::Plane;
+    scene.tile.plane.offset = 20.0;
+    scene.tile.clip.planes = {ClipPlane{{0.0, 0.0, -1.0}, -10.0}};
+    const auto hit = scene.hit({70, 50});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->kind, HitKind::Face);
+    EXPECT_NEAR(hit->world.x, 24.0, 1e-9);
+    EXPECT_NEAR(hit->world.y, 16.0, 1e-9);
+    EXPECT_NEAR(hit->world.z, 20.0, 1e-9);
+    EXPECT_FALSE(scene.hit({95, 50})) << "beside the box";
+    scene.tile.plane.normal = glm::normalize(glm::dvec3(1.0, 0.0, 1.0));
+    scene.tile.plane.offset = std::sqrt(0.5) * 30.0;
+    EXPECT_NEAR(scene.hit({70, 50})->world.z, 6.0, 1e-9) << "x + z = 30";
+    scene.tile.plane.normal = {1.0, 0.0, 0.0};
+    EXPECT_FALSE(scene.hit()) << "edge-on";
+    for (const double face : {0.0, 32.0}) {
+        scene.tile.plane.normal = {0.0, 0.0, 1.0};
+        scene.tile.plane.offset = face + (face > 0.0 ? 1e-12 : -1e-12);
+        EXPECT_EQ(scene.hit()->world.z, face) << "rounding does not lift it off the box";
+    }
+}
+
 TEST(PixelProbe, ARayBesideTheVolumeHitsNothing) {
     EXPECT_FALSE(Scene(constant).hit({-500, 50}));
     Scene cut(constant);

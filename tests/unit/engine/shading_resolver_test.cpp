@@ -13,14 +13,16 @@ CameraSpec fromTheRight() {
     return camera;
 }
 
-TEST(ShadingResolver, OnlyIsosurfacesAreShadedUnlessAskedAndProjectionsNever) {
-    for (const auto technique : {sheet::Technique::Slices, sheet::Technique::Raycast, sheet::Technique::Mip,
-                                 sheet::Technique::Surface, sheet::Technique::Isosurface}) {
+TEST(ShadingResolver, OnlyIsosurfacesAreShadedUnlessAskedAndProjectionsAndPlanesNever) {
+    for (const auto technique :
+         {sheet::Technique::Slices, sheet::Technique::Raycast, sheet::Technique::Mip,
+          sheet::Technique::Surface, sheet::Technique::Isosurface, sheet::Technique::Plane}) {
         sheet::TypedStyle style;
         style.technique = technique;
         EXPECT_EQ(resolveShading(style, {}).enabled, technique == sheet::Technique::Isosurface);
         style.shading.model = sheet::ShadingModel::Phong;
-        EXPECT_EQ(resolveShading(style, {}).enabled, technique != sheet::Technique::Mip);
+        EXPECT_EQ(resolveShading(style, {}).enabled,
+                  technique != sheet::Technique::Mip && technique != sheet::Technique::Plane);
         style.shading.model = sheet::ShadingModel::None;
         EXPECT_FALSE(resolveShading(style, {}).enabled);
     }

@@ -127,6 +127,27 @@ TEST(TileIdentity, LightsCountWhereThereIsShading) {
     expectNoneDiffers(projection, {[](TileSpec& s) { s.shading.enabled = false; }});
 }
 
+TEST(TileIdentity, APlaneIsItsPlaceAndColoursAndNothingElse) {
+    const std::vector<Change> places{
+        [](TileSpec&) {},
+        [](TileSpec& s) {
+            s.plane.normal = {1.0, 0.0, 0.0};
+        },
+        [](TileSpec& s) { s.plane.offset = 0.5; },
+        [](TileSpec& s) { s.plane.interpolation = PlaneInterpolation::Nearest; },
+    };
+    TileSpec plane = tile();
+    plane.technique = Technique::Plane;
+    expectAllDiffer(plane, places);
+    expectNoneDiffers(tile(), places);
+    expectNoneDiffers(plane, {
+                                 [](TileSpec& s) { s.clip.planes = {ClipPlane{}}; },
+                                 [](TileSpec& s) { s.shading.enabled = true; },
+                                 [](TileSpec& s) { s.sampleDistanceVoxels = 2.0; },
+                                 [](TileSpec& s) { s.unitLengthWorld = 2.0; },
+                             });
+}
+
 TEST(TileIdentity, IsosurfacesCountWhereTheyAreShown) {
     const auto colouredBy = [](float red, float opacity) {
         return [red, opacity](TileSpec& s) {
