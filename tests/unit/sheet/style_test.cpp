@@ -247,7 +247,25 @@ std::string refusedField(const TypedStyle& style) {
     return caught<InvalidInput>([&] { requireConsistent(style); }).field();
 }
 
-TEST(Style, DegenerateClipsAndLightsAreRefused) {
+TEST(Style, PlaneKeysReachTheTypedStyle) {
+    Workbook workbook = filledWorkbook(1, 1);
+    Sheet& sheet = workbook.sheets[0];
+    EXPECT_EQ(resolveStyle(testKeys(), sheet, {0, 0}).style.plane, PlaneStyle{}) << "the documented defaults";
+    sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"technique", "plane"},
+                                                           {"plane.axis", "custom"},
+                                                           {"plane.normal", {1, 0, -2}},
+                                                           {"plane.position", 0.25},
+                                                           {"plane.interpolation", "nearest"}});
+    const TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
+    EXPECT_EQ(style.technique, Technique::Plane);
+    EXPECT_EQ(style.plane, (PlaneStyle{PlaneAxis::Custom, {1, 0, -2}, 0.25, PlaneInterpolation::Nearest}));
+    for (const nlohmann::json wrong :
+         {nlohmann::json{{"plane.position", 1.5}}, nlohmann::json{{"plane.axis", "x"}},
+          nlohmann::json{{"plane.normal", {1, 2}}}})
+        EXPECT_THROW(parseStyleMap(testKeys(), wrong), InvalidInput) << wrong.dump();
+}
+
+TEST(Style, DegenerateClipsPlanesAndLightsAreRefused) {
     const TypedStyle initial = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
     TypedStyle style = initial;
     style.clip.planes = {{glm::dvec3(0.0), 0.5}};
@@ -263,6 +281,11 @@ TEST(Style, DegenerateClipsAndLightsAreRefused) {
     style = initial;
     style.light.directions = {glm::dvec3(0.0)};
     EXPECT_EQ(refusedField(style), "light.direction");
+    style = initial;
+    style.plane.normal = glm::dvec3(0.0);
+    EXPECT_NO_THROW(requireConsistent(style)) << "not in use";
+    style.plane.axis = PlaneAxis::Custom;
+    EXPECT_EQ(refusedField(style), "plane.normal");
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // Which way the picture looks: letters at the edges for medical data (R L A P S I), an axes cross for the rest.
-import { projectDirection, type Camera } from "../model/camera";
+import type { Basis } from "../model/camera";
+import { directionInView } from "../model/clip/arrow_ball";
 import { cameraOf } from "../model/look";
+import { pictureBasis } from "../model/plane_view";
 import type { Vector } from "../model/vector";
 import { cellOf, currentSheet } from "../state/book";
 import { useSelect } from "./app_context";
@@ -22,10 +24,10 @@ const anatomical: { letter: string; direction: Vector }[] = [
 ];
 
 /** The letters that lie mainly towards (right, up), strongest first; a second one when the view is oblique. */
-export function edgeLetters(camera: Camera, right: number, up: number): string {
+export function edgeLetters(basis: Basis, right: number, up: number): string {
     return anatomical
         .map(({ letter, direction }) => {
-            const [x, y] = projectDirection(camera, direction);
+            const [x, y] = directionInView(basis, direction);
             return { letter, along: x * right + y * up };
         })
         .filter(({ along }) => along > 0.35)
@@ -35,15 +37,15 @@ export function edgeLetters(camera: Camera, right: number, up: number): string {
         .join("");
 }
 
-function sameCamera(a: Camera, b: Camera): boolean {
-    return a.azimuth === b.azimuth && a.elevation === b.elevation && a.roll === b.roll;
+function sameBasis(a: Basis, b: Basis): boolean {
+    return a.right.every((part, i) => part === b.right[i]) && a.up.every((part, i) => part === b.up[i]);
 }
 
-function AxesCross({ camera }: { camera: Camera }) {
+function AxesCross({ basis }: { basis: Basis }) {
     const size = 44;
     const arm = 15;
     const drawn = axes
-        .map(({ label, direction }) => ({ label, at: projectDirection(camera, direction) }))
+        .map(({ label, direction }) => ({ label, at: directionInView(basis, direction) }))
         .sort((a, b) => a.at[2] - b.at[2]);
     return (
         <svg class="axes-cross" width={size} height={size} viewBox={`${-size / 2} ${-size / 2} ${size} ${size}`} aria-hidden="true">
@@ -65,15 +67,18 @@ export function OrientationMarks({ cell }: { cell: string }) {
         const annotations = cellOf(currentSheet(state.book), cell)?.style["annotations"]?.value;
         return annotations === undefined || annotations === "all";
     });
-    const camera = useSelect((state) => cameraOf(state.page.look, cellOf(currentSheet(state.book), cell)), sameCamera);
+    const basis = useSelect((state) => {
+        const shownCell = cellOf(currentSheet(state.book), cell);
+        return pictureBasis(shownCell, cameraOf(state.page.look, shownCell));
+    }, sameBasis);
     if (!shown) return null;
-    if (!anatomy) return <AxesCross camera={camera} />;
+    if (!anatomy) return <AxesCross basis={basis} />;
     return (
         <div class="anatomy" aria-hidden="true">
-            <b class="edge-left">{edgeLetters(camera, -1, 0)}</b>
-            <b class="edge-right">{edgeLetters(camera, 1, 0)}</b>
-            <b class="edge-top">{edgeLetters(camera, 0, 1)}</b>
-            <b class="edge-bottom">{edgeLetters(camera, 0, -1)}</b>
+            <b class="edge-left">{edgeLetters(basis, -1, 0)}</b>
+            <b class="edge-right">{edgeLetters(basis, 1, 0)}</b>
+            <b class="edge-top">{edgeLetters(basis, 0, 1)}</b>
+            <b class="edge-bottom">{edgeLetters(basis, 0, -1)}</b>
         </div>
     );
 }

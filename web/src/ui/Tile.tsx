@@ -6,6 +6,7 @@ import type { CellState } from "../api/types";
 import { formatAddress, type Address } from "../model/address";
 import { formatNumber, formatPercent, withUnit } from "../model/format";
 import { hasOwnCamera } from "../model/look";
+import { isPlane } from "../model/plane_view";
 import { isSelected, selectCell } from "../model/selection";
 import { cellOf, cellTitle, currentSheet } from "../state/book";
 import { newTile, type TileInfo } from "../state/tiles";
@@ -183,7 +184,7 @@ export function Tile({ address }: { address: Address }) {
                 {drawn && !tile.final && <div class="refining" aria-hidden="true" />}
                 {drawn && tile.painted && <OrientationMarks cell={name} />}
                 {drawn && tile.painted && <ColourBar cell={name} />}
-                {drawn && clipHandles && <ClipHandles cell={name} />}
+                {drawn && clipHandles && !isPlane(cell) && <ClipHandles cell={name} />}
                 {drawn && <ProbeChip cell={name} />}
                 {shown.state === "importing" && <TileProgress progress={shown.progress} label="Importing" />}
                 {shown.state === "error" && <TileError code={shown.code} message={shown.message} />}

@@ -1,0 +1,45 @@
+// How technique plane lies in its picture, as the server says (server/engine/plane_resolver.h): the camera's angles mean
+// nothing there.
+import type { CellState } from "../api/types";
+import { cameraBasis, isFinite3, type Basis, type Camera } from "./camera";
+import { cross, length, normalized, scaled, type Vector } from "./vector";
+
+const x: Vector = [1, 0, 0];
+const y: Vector = [0, 1, 0];
+const z: Vector = [0, 0, 1];
+
+function basisOf(right: Vector, up: Vector): Basis {
+    return { right, up, towardsEye: cross(right, up) };
+}
+
+function customBasis(normal: Vector): Basis {
+    const towardsEye = normalized(normal);
+    const vertical = length(cross(z, towardsEye)) < 1e-6;
+    const right = normalized(cross(vertical ? y : z, towardsEye));
+    return { right, up: cross(towardsEye, right), towardsEye };
+}
+
+export function isPlane(cell: CellState | undefined): boolean {
+    return cell?.style["technique"]?.value === "plane";
+}
+
+/** Patients are shown in the radiological convention: their right is on the picture's left. */
+export function planeBasis(cell: CellState): Basis {
+    const mirrored = (axis: Vector): Vector => (cell.orientation === true ? scaled(axis, -1) : axis);
+    const normal = cell.style["plane.normal"]?.value;
+    switch (cell.style["plane.axis"]?.value) {
+        case "coronal":
+            return basisOf(mirrored(x), z);
+        case "sagittal":
+            return basisOf(mirrored(y), z);
+        case "custom":
+            return customBasis(isFinite3(normal) ? normal : z);
+        default:
+            return basisOf(mirrored(x), y);
+    }
+}
+
+/** Of what the cell's picture shows, whatever its technique. */
+export function pictureBasis(cell: CellState | undefined, camera: Camera): Basis {
+    return cell && isPlane(cell) ? planeBasis(cell) : cameraBasis(camera);
+}

@@ -1,0 +1,55 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { CellState } from "../src/api/types";
+import { cameraBasis, defaultCamera } from "../src/model/camera";
+import { pictureBasis } from "../src/model/plane_view";
+import { cross, dot, type Vector } from "../src/model/vector";
+import { edgeLetters } from "../src/ui/OrientationMarks";
+
+function cellWith(style: Record<string, unknown>, orientation = true): CellState {
+    const values = Object.fromEntries(Object.entries(style).map(([key, value]) => [key, { value, origin: "sheet" }]));
+    return { cell: "A1", state: "ok", orientation, style: values } as unknown as CellState;
+}
+
+const lettersOf = (axis: string): string => {
+    const basis = pictureBasis(cellWith({ technique: "plane", "plane.axis": axis }), defaultCamera);
+    return [
+        [-1, 0],
+        [1, 0],
+        [0, 1],
+        [0, -1],
+    ]
+        .map(([right, up]) => edgeLetters(basis, right!, up!))
+        .join(" ");
+};
+
+test("planes of patients carry the letters of the radiological convention: left, right, top, bottom", () => {
+    assert.equal(lettersOf("axial"), "R L A P");
+    assert.equal(lettersOf("coronal"), "R L S I");
+    assert.equal(lettersOf("sagittal"), "A P S I");
+});
+
+test("other data have x or y to the right", () => {
+    const right = (axis: string): Vector =>
+        pictureBasis(cellWith({ technique: "plane", "plane.axis": axis }, false), defaultCamera).right;
+    assert.deepEqual(right("axial"), [1, 0, 0]);
+    assert.deepEqual(right("coronal"), [1, 0, 0]);
+    assert.deepEqual(right("sagittal"), [0, 1, 0]);
+});
+
+test("custom planes face the eye upright, and other techniques follow the camera", () => {
+    for (const normal of [
+        [1, 2, 3],
+        [0, 0, -2],
+    ]) {
+        const basis = pictureBasis(
+            cellWith({ technique: "plane", "plane.axis": "custom", "plane.normal": normal }),
+            defaultCamera,
+        );
+        assert.ok(dot(basis.towardsEye, normal as unknown as Vector) > 0);
+        assert.ok(basis.up[2] > 0 || basis.up[1] === 1);
+        const across = cross(basis.right, basis.up);
+        across.forEach((part, i) => assert.ok(Math.abs(part - basis.towardsEye[i]!) < 1e-12));
+    }
+    assert.deepEqual(pictureBasis(cellWith({ technique: "mip" }), defaultCamera), cameraBasis(defaultCamera));
+});
