@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { CellState } from "../src/api/types";
-import { cameraBasis, defaultCamera } from "../src/model/camera";
-import { pictureBasis } from "../src/model/plane_view";
+import { cameraBasis, defaultCamera, panned, zoomed } from "../src/model/camera";
+import { flatView, pictureBasis } from "../src/model/plane_view";
 import { cross, dot, type Vector } from "../src/model/vector";
 import { edgeLetters } from "../src/ui/OrientationMarks";
 
@@ -52,4 +52,19 @@ test("custom planes face the eye upright, and other techniques follow the camera
         across.forEach((part, i) => assert.ok(Math.abs(part - basis.towardsEye[i]!) < 1e-12));
     }
     assert.deepEqual(pictureBasis(cellWith({ technique: "mip" }), defaultCamera), cameraBasis(defaultCamera));
+});
+
+test("dragging a plane moves it with the pointer, and zooming keeps what lies under it", () => {
+    const box = { origin: [0, 0, 0], edges: [[2, 0, 0], [0, 4, 0], [0, 0, 3]] };
+    const cell = { ...cellWith({ technique: "plane", "plane.axis": "axial" }), box } as unknown as CellState;
+    const flat = flatView(cell, 1)!;
+    const radius = Math.hypot(2, 4, 3) / 2;
+    const camera = { ...defaultCamera, distance: 3.9, azimuth: 77 };
+    // 100 pixels show 1.04 * 4: a drag by 100 pixels to the right takes the patient's left (-x) away from the middle.
+    const after = panned(camera, 100, 0, 100, flat);
+    assert.ok(Math.abs(after.target[0] * radius - 1.04 * 4) < 1e-9);
+    assert.ok(Math.abs(after.target[1]) < 1e-12);
+    const zoom = zoomed(camera, 2, 0, -50, 100, flat);
+    assert.ok(Math.abs(zoom.target[1] * radius - 1.04) < 1e-9, "the upper edge stays where it is");
+    assert.equal(flatView({ ...cell, style: {} }, 1), undefined);
 });

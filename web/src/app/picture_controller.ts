@@ -1,8 +1,9 @@
 // Gestures on one cell's picture become camera changes, window/level edits, selections and probes.
 import { probePixel } from "../api/sheets";
 import type { LayerTarget, StylePatch } from "../api/types";
-import { orbited, panned, rolled, zoomed } from "../model/camera";
+import { orbited, panned, rolled, zoomed, type FlatView } from "../model/camera";
 import { parseAddress } from "../model/address";
+import { flatView } from "../model/plane_view";
 import { selectCell } from "../model/selection";
 import { windowLevel, type ValueRange } from "../model/transfer";
 import { currentSheet } from "../state/book";
@@ -45,13 +46,20 @@ export class PictureController implements GestureHandlers {
             return;
         }
         const before = this.app.view.camera(this.cell);
+        const flat = this.flat();
+        // A plane has one side to be seen from: what would turn other pictures moves it.
         const camera =
-            step.kind === "orbit"
-                ? orbited(before, step.dx, step.dy, step.height)
-                : step.kind === "pan"
-                  ? panned(before, step.dx, step.dy, step.height)
+            flat || step.kind === "pan"
+                ? panned(before, step.dx, step.dy, step.height, flat)
+                : step.kind === "orbit"
+                  ? orbited(before, step.dx, step.dy, step.height)
                   : rolled(before, step.x - step.dx, step.y - step.dy, step.x, step.y);
         this.app.view.setCamera(this.cell, camera, step.alone);
+    }
+
+    private flat(): FlatView | undefined {
+        const { width, height } = this.size();
+        return flatView(this.app.view.cell(this.cell), width / Math.max(1, height));
     }
 
     private windowDrag(step: DragStep): void {
@@ -74,7 +82,7 @@ export class PictureController implements GestureHandlers {
     }
 
     zoom(step: ZoomStep): void {
-        const camera = zoomed(this.app.view.camera(this.cell), step.factor, step.x, step.y, step.height);
+        const camera = zoomed(this.app.view.camera(this.cell), step.factor, step.x, step.y, step.height, this.flat());
         this.app.view.setCamera(this.cell, camera, step.alone);
         this.app.view.stepped();
     }

@@ -53,6 +53,17 @@ export function radiiPerPixel(camera: Camera, heightPixels: number): number {
     return (2 * camera.distance * Math.tan((camera.fov * radians) / 2)) / Math.max(1, heightPixels);
 }
 
+/** How a picture shows the world where it is looked at, in place of what the camera's angles say (technique plane). */
+export interface FlatView {
+    basis: Basis;
+    /** World height of the picture in bounding radii when camera.distance is 1. */
+    heightPerDistance: number;
+}
+
+function scaleOf(camera: Camera, heightPixels: number, flat?: FlatView): number {
+    return flat ? (flat.heightPerDistance * camera.distance) / Math.max(1, heightPixels) : radiiPerPixel(camera, heightPixels);
+}
+
 function wrapDegrees(angle: number): number {
     const turned = (((angle + 180) % 360) + 360) % 360;
     return turned - 180;
@@ -77,9 +88,9 @@ export function orbited(camera: Camera, dx: number, dy: number, heightPixels: nu
     };
 }
 
-export function panned(camera: Camera, dx: number, dy: number, heightPixels: number): Camera {
-    const { right, up } = cameraBasis(camera);
-    const perPixel = radiiPerPixel(camera, heightPixels);
+export function panned(camera: Camera, dx: number, dy: number, heightPixels: number, flat?: FlatView): Camera {
+    const { right, up } = flat?.basis ?? cameraBasis(camera);
+    const perPixel = scaleOf(camera, heightPixels, flat);
     return { ...camera, target: add(camera.target, add(scaled(right, -dx * perPixel), scaled(up, dy * perPixel))) };
 }
 
@@ -87,11 +98,11 @@ export function panned(camera: Camera, dx: number, dy: number, heightPixels: num
  * factor > 1 comes closer. (x, y): pointer in pixels from the picture's centre, y downwards; what lies there in the target
  * plane stays under the pointer.
  */
-export function zoomed(camera: Camera, factor: number, x = 0, y = 0, heightPixels = 1): Camera {
+export function zoomed(camera: Camera, factor: number, x = 0, y = 0, heightPixels = 1, flat?: FlatView): Camera {
     const distance = clamp(camera.distance / factor, distanceLimits[0], distanceLimits[1]);
-    const before = radiiPerPixel(camera, heightPixels);
-    const after = radiiPerPixel({ ...camera, distance }, heightPixels);
-    const { right, up } = cameraBasis(camera);
+    const before = scaleOf(camera, heightPixels, flat);
+    const after = scaleOf({ ...camera, distance }, heightPixels, flat);
+    const { right, up } = flat?.basis ?? cameraBasis(camera);
     const shift = add(scaled(right, x * (before - after)), scaled(up, -y * (before - after)));
     return { ...camera, distance, target: add(camera.target, shift) };
 }

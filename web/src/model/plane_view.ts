@@ -1,8 +1,13 @@
 // How technique plane lies in its picture, as the server says (server/engine/plane_resolver.h): the camera's angles mean
 // nothing there.
 import type { CellState } from "../api/types";
-import { cameraBasis, isFinite3, type Basis, type Camera } from "./camera";
+import { cameraBasis, isFinite3, type Basis, type Camera, type FlatView } from "./camera";
 import { cross, length, normalized, scaled, type Vector } from "./vector";
+import { boundingRadius, extentAlong } from "./volume_box";
+
+/** Picture over box where it fits tightest, at the camera distance that shows all. */
+const margin = 1.04;
+const fittingDistance = 3.9;
 
 const x: Vector = [1, 0, 0];
 const y: Vector = [0, 1, 0];
@@ -42,4 +47,17 @@ export function planeBasis(cell: CellState): Basis {
 /** Of what the cell's picture shows, whatever its technique. */
 export function pictureBasis(cell: CellState | undefined, camera: Camera): Basis {
     return cell && isPlane(cell) ? planeBasis(cell) : cameraBasis(camera);
+}
+
+/** undefined: the picture follows the camera. \param aspect  width over height of the picture */
+export function flatView(cell: CellState | undefined, aspect: number): FlatView | undefined {
+    if (!cell?.box || !isPlane(cell)) return undefined;
+    const box = cell.box;
+    const basis = planeBasis(cell);
+    const extent = (direction: Vector): number => {
+        const { low, high } = extentAlong(box, direction);
+        return high - low;
+    };
+    const fitting = Math.max(extent(basis.up), extent(basis.right) / aspect);
+    return { basis, heightPerDistance: (margin * fitting) / (fittingDistance * boundingRadius(box)) };
 }
