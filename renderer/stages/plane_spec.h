@@ -7,7 +7,9 @@ namespace voxsheet {
 
 enum class PlaneInterpolation {
     Linear, ///< trilinear between samples
-    Nearest ///< the value of the voxel that holds the point; of two that share it, the one of higher index
+    /// The value of the voxel that holds the point. Points on the border of two voxels, or less than 1/1024
+    /// voxel below it, show the one of higher index: rounding must not speckle planes that lie in a border.
+    Nearest
 };
 
 /// The points p of the world with dot(normal, p) = offset.

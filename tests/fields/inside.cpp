@@ -155,8 +155,10 @@ glm::dvec4 planePixel(const RayTruth& ray) {
         glm::any(glm::greaterThan(index, box.high + slack)))
         return glm::dvec4(0.0);
     const auto texture = (index + 0.5) / glm::dvec3(grid.dims);
-    const double value = plane.interpolation == PlaneInterpolation::Nearest ? ray.sources.nearest(texture)
-                                                                            : ray.sources.value(texture);
+    const auto aboveBorder = 1.0 / 1024.0 / glm::dvec3(ray.sources.levelDims);
+    const double value = plane.interpolation == PlaneInterpolation::Nearest
+                             ? ray.sources.nearest(texture + aboveBorder)
+                             : ray.sources.value(texture);
     if (std::isnan(value)) {
         const glm::dvec4 nan(ray.tile.transfer->nan);
         return {glm::dvec3(nan) * nan.w, nan.w};
