@@ -259,9 +259,9 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
     const TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
     EXPECT_EQ(style.technique, Technique::Plane);
     EXPECT_EQ(style.plane, (PlaneStyle{PlaneAxis::Custom, {1, 0, -2}, 0.25, PlaneInterpolation::Nearest}));
-    for (const nlohmann::json wrong :
-         {nlohmann::json{{"plane.position", 1.5}}, nlohmann::json{{"plane.axis", "x"}},
-          nlohmann::json{{"plane.normal", {1, 2}}}})
+    const std::vector<nlohmann::json> refused{
+        {{"plane.position", 1.5}}, {{"plane.axis", "x"}}, {{"plane.normal", {1, 2}}}};
+    for (const nlohmann::json& wrong : refused)
         EXPECT_THROW(parseStyleMap(testKeys(), wrong), InvalidInput) << wrong.dump();
 }
 
