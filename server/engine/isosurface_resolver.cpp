@@ -51,7 +51,7 @@ glm::dvec3 automaticColour(const TransferFunction& function, double value, bool 
     return brightened(glm::dvec3(evaluateTransfer(function, from)));
 }
 
-std::string numberText(double value) {
+std::string sixDigits(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.6g", value);
     return text.data();
@@ -106,9 +106,9 @@ std::string emptySurfacesNote(const std::vector<Isosurface>& surfaces, const Val
     if (!std::all_of(surfaces.begin(), surfaces.end(), outside)) return {};
     std::string values;
     for (const Isosurface& each : surfaces)
-        values += (values.empty() ? "" : ", ") + numberText(each.value);
-    return "no surface is drawn: the data's values go from " + numberText(own.min) + " to " +
-           numberText(own.max) + ", and " +
+        values += (values.empty() ? "" : ", ") + sixDigits(each.value);
+    return "no surface is drawn: the data's values go from " + sixDigits(own.min) + " to " +
+           sixDigits(own.max) + ", and " +
            (surfaces.size() == 1 ? "the isovalue is " + values : "the isovalues are " + values) +
            "; set isovalue to a value between them";
 }

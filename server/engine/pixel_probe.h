@@ -37,8 +37,8 @@ struct ProbedVolumes {
 /// The point that the eye sees, among what clipping keeps: an isosurface's first crossing (or a cap before
 /// it); the face that technique surface shows; maximum intensity projection's largest sample; the point of
 /// technique plane's plane; of volume rendering the first sample of at least the given opacity, or where the
-/// accumulated opacity passes one half. Empty where the ray meets nothing. \param opacity  per unit length,
-/// as in the transfer function
+/// accumulated opacity passes one half. Empty where the ray meets nothing.
+/// \param opacity  per unit length, as in the transfer function
 [[nodiscard]] std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes,
                                                glm::dvec2 pixel, std::optional<double> opacity = {});
 

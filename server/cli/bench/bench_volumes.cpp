@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "cli/demo/analytic_fields.h"
+#include "cli/engine_arguments.h"
 
 #include <array>
 #include <fstream>
@@ -31,6 +32,15 @@ std::vector<std::string> writeBenchVolumes(const fs::path& folder, int count, in
         files.push_back(file.string());
     }
     return files;
+}
+
+engine::EngineOptions benchEngineOptions(const fs::path& folder, int device) {
+    EngineArguments arguments;
+    arguments.store = (folder / "store").string();
+    arguments.uploadDir = (folder / "uploads").string();
+    arguments.roots = {folder.string()};
+    arguments.device = device;
+    return engineOptions(arguments);
 }
 
 } // namespace voxsheet::cli

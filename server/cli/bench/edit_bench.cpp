@@ -20,20 +20,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-engine::EngineOptions engineIn(const std::filesystem::path& scratch, int device) {
-    EngineArguments arguments;
-    arguments.store = (scratch / "store").string();
-    arguments.uploadDir = (scratch / "uploads").string();
-    arguments.roots = {scratch.string()};
-    arguments.device = device;
-    return engineOptions(arguments);
-}
-
 /// A sheet of different volumes, and a page that looks at all of it.
 class WatchedSheet {
 public:
     WatchedSheet(const EditBenchOptions& options, const std::filesystem::path& scratch)
-        : engine_(engineIn(scratch, options.device)), tileSize_(options.width, options.height) {
+        : engine_(benchEngineOptions(scratch, options.device)), tileSize_(options.width, options.height) {
         EngineArguments arguments;
         arguments.sources = writeBenchVolumes(scratch, options.cells, options.dim);
         openSources(engine_, arguments);

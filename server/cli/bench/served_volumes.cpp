@@ -5,21 +5,8 @@
 
 namespace voxsheet::cli {
 
-namespace {
-
-engine::EngineOptions optionsFor(int device, const std::filesystem::path& scratch) {
-    EngineArguments arguments;
-    arguments.store = (scratch / "store").string();
-    arguments.uploadDir = (scratch / "uploads").string();
-    arguments.roots = {scratch.string()};
-    arguments.device = device;
-    return engineOptions(arguments);
-}
-
-} // namespace
-
 ServedVolumes::ServedVolumes(int count, int dim, int device, const std::filesystem::path& scratch)
-    : engine_(optionsFor(device, scratch)) {
+    : engine_(benchEngineOptions(scratch, device)) {
     EngineArguments arguments;
     arguments.sources = writeBenchVolumes(scratch, count, dim);
     openSources(engine_, arguments);

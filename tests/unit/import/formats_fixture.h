@@ -98,6 +98,17 @@ inline void expectMentions(const std::string& text, const std::string& words) {
     EXPECT_NE(text.find(words), std::string::npos) << "expected '" << words << "' in: " << text;
 }
 
+/// The crystal of the small files that tests of crystal formats write: Na at the origin, Cl beside it, in a
+/// cell whose last vector leans.
+inline void expectShearedSalt(const DatasetMeta& meta) {
+    ASSERT_TRUE(meta.crystal);
+    EXPECT_EQ(meta.crystal->lattice[2], glm::dvec3(1, 0, 4));
+    ASSERT_EQ(meta.crystal->atoms.size(), 2U);
+    EXPECT_EQ(meta.crystal->atoms[0].atomicNumber, 11);
+    EXPECT_EQ(meta.crystal->atoms[1].atomicNumber, 17);
+    EXPECT_EQ(meta.crystal->atoms[1].positionWorld, glm::dvec3(1.5, 1.5, 2));
+}
+
 template <typename T>
 std::string bytesOf(const std::vector<T>& values, bool bigEndian = false) {
     std::string bytes(values.size() * sizeof(T), '\0');
