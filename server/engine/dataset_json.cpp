@@ -112,7 +112,9 @@ json describeBox(const Grid& grid) {
     for (int axis = 0; axis < 3; ++axis)
         edges.push_back(vectorJson(glm::dvec3(grid.worldFromIndex[axis]) * (box.high[axis] - box.low[axis])));
     return {{"origin", vectorJson(glm::dvec3(grid.worldFromIndex * glm::dvec4(box.low, 1.0)))},
-            {"edges", edges}};
+            {"edges", edges},
+            {"voxels", vectorJson(box.high - box.low)},
+            {"firstSample", vectorJson(glm::dvec3(0.0) - box.low)}};
 }
 
 json describeHistogram(const DatasetMeta& meta, int field, int step) {

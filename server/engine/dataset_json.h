@@ -15,7 +15,9 @@ namespace voxsheet::engine {
 /// (after slope and intercept); a field without a finite value has range null.
 [[nodiscard]] nlohmann::json describeDataset(const DatasetMeta& meta);
 
-/// {origin, edges: [a, b, c]}: the drawn box in the world, from its first corner along the grid's axes.
+/// {origin, edges: [a, b, c], voxels, firstSample}: the drawn box in the world, from its first corner along
+/// the grid's axes; how many voxels long each edge is, and how many from the first corner the first sample
+/// sits.
 [[nodiscard]] nlohmann::json describeBox(const Grid& grid);
 
 /// {low, high, counts, mean, min, max, stddev, nan} of one field and step. Throws NotFound if there is none

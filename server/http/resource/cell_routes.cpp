@@ -64,12 +64,13 @@ Response patchCell(const ApiContext& context, const Request& request) {
 } // namespace
 
 void addCellRoutes(Router& router, const ApiContext& context) {
-    router.add(
-        {.method = "GET",
-         .pattern = "/api/v1/sheets/{sheet}/cells/{cell}",
-         .handler = [&context](Request& request) { return getCell(context, request); },
-         .summary = "One cell: title, source, state, its own style values and all resolved ones",
-         .answerDoc = "{cell, title, source, state, code, message, box: {origin, edges}, style, resolved}"});
+    router.add({.method = "GET",
+                .pattern = "/api/v1/sheets/{sheet}/cells/{cell}",
+                .handler = [&context](Request& request) { return getCell(context, request); },
+                .summary = "One cell: title, source, state, its own style values and all resolved ones",
+                .answerDoc =
+                    "{cell, title, source, state, code, message, box: {origin, edges, voxels, firstSample}, "
+                    "style, resolved}"});
     router.add(
         {.method = "PATCH",
          .pattern = "/api/v1/sheets/{sheet}/cells/{cell}",

@@ -20,7 +20,9 @@ Grid shearedGrid() {
 TEST(DatasetJson, BoxOfPointsRunsFromFirstToLastSample) {
     EXPECT_EQ(engine::describeBox(shearedGrid()),
               (json{{"origin", {10.0, 20.0, 30.0}},
-                    {"edges", {{8.0, 0.0, 0.0}, {3.0, 9.0, 0.0}, {0.0, 0.0, 4.0}}}}));
+                    {"edges", {{8.0, 0.0, 0.0}, {3.0, 9.0, 0.0}, {0.0, 0.0, 4.0}}},
+                    {"voxels", {4.0, 3.0, 8.0}},
+                    {"firstSample", {0.0, 0.0, 0.0}}}));
 }
 
 TEST(DatasetJson, BoxOfCellsReachesHalfAVoxelFurther) {
@@ -29,7 +31,9 @@ TEST(DatasetJson, BoxOfCellsReachesHalfAVoxelFurther) {
     // Half a step back along every axis: (2 + 1, 3, 0.5) / 2.
     EXPECT_EQ(engine::describeBox(grid),
               (json{{"origin", {8.5, 18.5, 29.75}},
-                    {"edges", {{10.0, 0.0, 0.0}, {4.0, 12.0, 0.0}, {0.0, 0.0, 4.5}}}}));
+                    {"edges", {{10.0, 0.0, 0.0}, {4.0, 12.0, 0.0}, {0.0, 0.0, 4.5}}},
+                    {"voxels", {5.0, 4.0, 9.0}},
+                    {"firstSample", {0.5, 0.5, 0.5}}}));
 }
 
 TEST(DatasetJson, BoxOfAPeriodicAxisIncludesTheClosingSlab) {

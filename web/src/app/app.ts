@@ -17,6 +17,7 @@ import { ClipActions } from "./clip_actions";
 import { DatasetActions } from "./dataset_actions";
 import { LevelActions } from "./level_actions";
 import { Notices } from "./notices";
+import { PlaneActions } from "./plane_actions";
 import { ServerSync } from "./server_sync";
 import { StyleActions } from "./style_actions";
 import { KeyEdits, StyleEdit } from "./style_edit";
@@ -34,6 +35,7 @@ export class App {
     readonly clips = new ClipActions(this.store, this.styles, this.view, this.notices);
     readonly levels = new LevelActions(this.store, this.styles, this.notices);
     readonly keyEdits = new KeyEdits(this.styles, this.view);
+    readonly planes = new PlaneActions(this.styles, this.view, this.keyEdits);
 
     readonly painter = new TilePainter({
         framePainted: (frame, tiles) => {

@@ -3,7 +3,7 @@ import { probePixel } from "../api/sheets";
 import type { LayerTarget, StylePatch } from "../api/types";
 import { orbited, panned, rolled, zoomed, type FlatView } from "../model/camera";
 import { parseAddress } from "../model/address";
-import { flatView } from "../model/plane_view";
+import { flatView, isPlane } from "../model/plane_view";
 import { selectCell } from "../model/selection";
 import { windowLevel, type ValueRange } from "../model/transfer";
 import { currentSheet } from "../state/book";
@@ -85,6 +85,14 @@ export class PictureController implements GestureHandlers {
         const camera = zoomed(this.app.view.camera(this.cell), step.factor, step.x, step.y, step.height, this.flat());
         this.app.view.setCamera(this.cell, camera, step.alone);
         this.app.view.stepped();
+    }
+
+    wheelSteps(): boolean {
+        return isPlane(this.app.view.cell(this.cell));
+    }
+
+    step(by: number, alone: boolean): void {
+        this.app.planes.step(this.cell, by, alone);
     }
 
     click(event: PointerEvent): void {

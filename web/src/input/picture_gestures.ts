@@ -30,6 +30,10 @@ export interface GestureHandlers {
     /** cancelled: the browser took the pointer away. */
     dragEnded(kind: DragKind, cancelled: boolean): void;
     zoom(step: ZoomStep): void;
+    /** The wheel steps through what the picture shows; with Ctrl or Shift it zooms all the same. */
+    wheelSteps(): boolean;
+    /** \param by  voxels; up is positive */
+    step(by: number, alone: boolean): void;
     click(event: PointerEvent): void;
     hover(x: number, y: number): void;
     left(): void;
@@ -40,12 +44,16 @@ export interface GestureHandlers {
 /** Below this a press is a click. */
 const clickPixels = 3;
 const wheelPixelsPerDoubling = 500;
+/** A wheel's notch is one step, however many pixels the browser makes of it; a trackpad's small strokes add up. */
+const wheelPixelsPerStep = 40;
+const wheelPixelsPerNotch = 120;
 
 export class PictureGestures {
     private readonly pointers = new Map<number, { x: number; y: number }>();
     private kind: DragKind | null = null;
     private began = false;
     private start = { x: 0, y: 0 };
+    private wheelRest = 0;
 
     constructor(
         private readonly element: HTMLElement,
@@ -174,8 +182,16 @@ export class PictureGestures {
         event.preventDefault();
         const box = this.element.getBoundingClientRect();
         const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-        // A trackpad's pinch arrives as a wheel with Ctrl and small steps.
-        const pixels = event.deltaY * lines * (event.ctrlKey ? 8 : 1);
+        // With Shift, some browsers turn the wheel sideways.
+        const turned = (event.shiftKey && event.deltaY === 0 ? event.deltaX : event.deltaY) * lines;
+        const zooms = event.ctrlKey || event.metaKey || event.shiftKey;
+        if (!zooms && this.handlers.wheelSteps()) {
+            this.wheelStep(turned, event.altKey);
+            return;
+        }
+        // A trackpad's pinch arrives as a wheel with Ctrl and small steps; a wheel's notch is never that small.
+        const pinch = event.ctrlKey && Math.abs(turned) < wheelPixelsPerStep;
+        const pixels = turned * (pinch ? 8 : 1);
         this.handlers.zoom({
             factor: Math.pow(2, -pixels / wheelPixelsPerDoubling),
             x: event.clientX - box.left - box.width / 2,
@@ -183,5 +199,18 @@ export class PictureGestures {
             height: box.height,
             alone: event.altKey,
         });
+    }
+
+    private wheelStep(pixels: number, alone: boolean): void {
+        if (Math.abs(pixels) >= wheelPixelsPerStep) {
+            this.wheelRest = 0;
+            this.handlers.step(-Math.sign(pixels) * Math.max(1, Math.round(Math.abs(pixels) / wheelPixelsPerNotch)), alone);
+            return;
+        }
+        this.wheelRest += pixels;
+        const steps = Math.trunc(this.wheelRest / wheelPixelsPerStep);
+        if (steps === 0) return;
+        this.wheelRest -= steps * wheelPixelsPerStep;
+        this.handlers.step(-steps, alone);
     }
 }

@@ -1,7 +1,8 @@
 // Keys that work anywhere on the page, unless something is being typed.
 import type { App } from "../app/app";
 import { formatAddress } from "../model/address";
-import { orbited, panned, zoomed, type Camera } from "../model/camera";
+import { orbited, panned, zoomed, type Camera, type FlatView } from "../model/camera";
+import { flatView, isPlane } from "../model/plane_view";
 
 const orbitDegrees = 5;
 const panPart = 0.04;
@@ -32,14 +33,15 @@ const arrows: Record<string, [number, number]> = {
 /** Degrees and parts of the picture's height become pixels of a picture 180 pixels high. */
 const nominalHeight = 180;
 
-export function moveByKey(camera: Camera, event: { key: string; shiftKey: boolean }): Camera | null {
+/** \param flat  set where the picture shows a plane, which has one side to be seen from: arrows move it */
+export function moveByKey(camera: Camera, event: { key: string; shiftKey: boolean }, flat?: FlatView): Camera | null {
     const arrow = arrows[event.key];
-    if (arrow && event.shiftKey) {
-        return panned(camera, arrow[0] * panPart * nominalHeight, arrow[1] * panPart * nominalHeight, nominalHeight);
+    if (arrow && (event.shiftKey || flat)) {
+        return panned(camera, arrow[0] * panPart * nominalHeight, arrow[1] * panPart * nominalHeight, nominalHeight, flat);
     }
     if (arrow) return orbited(camera, arrow[0] * orbitDegrees, arrow[1] * orbitDegrees, nominalHeight);
-    if (event.key === "+" || event.key === "=") return zoomed(camera, zoomFactor);
-    if (event.key === "-") return zoomed(camera, 1 / zoomFactor);
+    if (event.key === "+" || event.key === "=") return zoomed(camera, zoomFactor, 0, 0, nominalHeight, flat);
+    if (event.key === "-") return zoomed(camera, 1 / zoomFactor, 0, 0, nominalHeight, flat);
     return null;
 }
 
@@ -51,7 +53,9 @@ class Shortcuts {
 
     keyDown(event: KeyboardEvent): void {
         if (event.defaultPrevented || isTyping(event.target)) return;
-        const handled = event.ctrlKey || event.metaKey ? this.command(event) : this.plain(event);
+        // AltGr, by which many keyboards type [ and ], may count as Ctrl + Alt.
+        const typed = event.getModifierState("AltGraph");
+        const handled = (event.ctrlKey || event.metaKey) && !typed ? this.command(event) : this.plain(event);
         if (handled) event.preventDefault();
     }
 
@@ -95,6 +99,15 @@ class Shortcuts {
                 view.fit(active, this.aspectOf(active), event.altKey);
                 view.stepped();
                 return true;
+            case "[":
+            case "]":
+                this.app.planes.step(active, event.key === "]" ? 1 : -1, event.altKey && !event.getModifierState("AltGraph"));
+                return true;
+            case "PageUp":
+            case "PageDown":
+                if (!(onPicture || nowhere) || !isPlane(view.cell(active))) return false;
+                this.app.planes.step(active, event.key === "PageUp" ? 1 : -1, event.altKey);
+                return true;
             case "Delete":
                 void cells.clearSelected();
                 return true;
@@ -113,8 +126,9 @@ class Shortcuts {
     }
 
     private moveCamera(event: KeyboardEvent, cell: string): boolean {
-        const camera = moveByKey(this.app.view.camera(cell), event);
-        if (!camera || this.app.view.cell(cell)?.state !== "ok") return false;
+        const shown = this.app.view.cell(cell);
+        const camera = moveByKey(this.app.view.camera(cell), event, flatView(shown, this.aspectOf(cell)));
+        if (!camera || shown?.state !== "ok") return false;
         this.app.view.setCamera(cell, camera, event.altKey);
         this.app.view.stepped();
         return true;

@@ -6,6 +6,10 @@ export interface VolumeBox {
     origin: Vector;
     /** From the first corner along the volume's axes, world units. */
     edges: Matrix;
+    /** Of the drawn box of a dataset: how many voxels long each edge is. */
+    voxels?: Vector;
+    /** And how many voxels from the first corner the first sample sits. */
+    firstSample?: Vector;
 }
 
 /** The corners' numbers: bit 0, 1, 2 set means at the far end of axis 0, 1, 2. */

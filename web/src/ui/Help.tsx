@@ -7,7 +7,8 @@ import { IconButton } from "./IconButton";
 const gestures: [string, string][] = [
     ["left drag, arrow keys", "turn (linked cells follow); Alt: this cell only"],
     ["right drag, Shift + left drag, Shift + arrows", "pan"],
-    ["wheel, pinch, + and −", "zoom to the pointer"],
+    ["wheel, pinch, + and −", "zoom to the pointer; on planes with Ctrl or Shift + wheel"],
+    ["wheel on a plane, [ and ], Page Up and Down", "step by one voxel, in all cells that share the position; Alt: this cell only"],
     ["Ctrl + left drag", "roll"],
     ["r, double-click on the title", "reset the view"],
     ["f", "fit"],

@@ -1,0 +1,94 @@
+// Where technique plane cuts a cell's volume, and how far one step of a voxel takes it (server/engine/plane_resolver.h).
+import type { CellState, StylePatch, StyleValue } from "../api/types";
+import { isFinite3 } from "./camera";
+import { isPlane } from "./plane_view";
+import { cross, dot, length, normalized, scaled, type Matrix, type Vector } from "./vector";
+import { extentAlong, pointAt, type VolumeBox } from "./volume_box";
+
+const worldAxes: Matrix = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+];
+const axisNumber: Record<string, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 2 };
+
+/** A style key's value as the cell shows it now. */
+export type ShownValue = (key: string) => StyleValue | undefined;
+
+/** The side to which positions rise; of unit length. */
+export function planeNormal(shown: ShownValue): Vector {
+    const axis = shown("plane.axis");
+    if (axis !== "custom") return worldAxes[axisNumber[String(axis)] ?? 2];
+    const normal = shown("plane.normal");
+    return isFinite3(normal) && length(normal) > 0 ? normalized(normal) : worldAxes[2];
+}
+
+/** Distances along the normal at which the plane may stand, one step apart. */
+interface Steps {
+    /** Of one plane of samples; null: the normal is oblique to them, and every place is as good. */
+    sample: number | null;
+    step: number;
+}
+
+/** Index steps along each of the volume's axes per world unit along a direction. */
+function indicesAlong(box: VolumeBox, voxels: Vector, direction: Vector): Vector {
+    const [a, b, c] = voxelEdges(box, voxels);
+    const volume = dot(a, cross(b, c));
+    return [dot(direction, cross(b, c)) / volume, dot(direction, cross(c, a)) / volume, dot(direction, cross(a, b)) / volume];
+}
+
+function voxelEdges(box: VolumeBox, voxels: Vector): Matrix {
+    return [scaled(box.edges[0], 1 / voxels[0]), scaled(box.edges[1], 1 / voxels[1]), scaled(box.edges[2], 1 / voxels[2])];
+}
+
+/** The axis whose planes of samples are at right angles to a direction. */
+function layeredAxis(box: VolumeBox, direction: Vector): number {
+    const [a, b, c] = box.edges;
+    return [cross(b, c), cross(c, a), cross(a, b)].findIndex((face) => length(cross(normalized(face), direction)) < 1e-6);
+}
+
+function stepsAlong(box: VolumeBox, normal: Vector): Steps | null {
+    const { voxels, firstSample } = box;
+    if (!voxels || !firstSample) return null;
+    const indices = indicesAlong(box, voxels, normal);
+    const axis = layeredAxis(box, normal);
+    if (axis < 0) return { sample: null, step: 1 / Math.max(...indices.map(Math.abs)) };
+    const first = pointAt(box, [firstSample[0] / voxels[0], firstSample[1] / voxels[1], firstSample[2] / voxels[2]]);
+    return { sample: dot(normal, first), step: 1 / Math.abs(indices[axis]!) };
+}
+
+const tolerance = 1e-6;
+
+/** From one place to another, a whole number of steps away; held at the last one inside the box. */
+function steppedOffset(offset: number, by: number, { sample, step }: Steps, low: number, high: number): number {
+    if (sample === null) return Math.min(high, Math.max(low, offset + by * step));
+    const at = (offset - sample) / step;
+    // From between two planes of samples, the first step goes to the next one.
+    const wanted = by > 0 ? Math.floor(at + tolerance) + by : Math.ceil(at - tolerance) + by;
+    const first = Math.ceil((low - sample) / step - tolerance);
+    const last = Math.floor((high - sample) / step + tolerance);
+    return sample + step * Math.min(last, Math.max(first, wanted));
+}
+
+/** Enough for millions of steps, and short to read. */
+function rounded(value: number): number {
+    return Number(value.toPrecision(10));
+}
+
+function clamp01(value: number): number {
+    return Math.min(1, Math.max(0, value));
+}
+
+/** \param by  voxels along the plane's normal. null: the cell shows no plane, or cannot go on */
+export function steppedPlane(cell: CellState | undefined, shown: ShownValue, by: number): StylePatch | null {
+    const box = cell?.box;
+    if (!box || !isPlane(cell) || cell.state !== "ok") return null;
+    const normal = planeNormal(shown);
+    const steps = stepsAlong(box, normal);
+    const { low, high } = extentAlong(box, normal);
+    const position = shown("plane.position");
+    if (!steps || typeof position !== "number" || high <= low) return null;
+    const offset = low + position * (high - low);
+    const next = steppedOffset(offset, by, steps, low, high);
+    return Math.abs(next - offset) < tolerance * steps.step ? null : { "plane.position": rounded(clamp01((next - low) / (high - low))) };
+}
