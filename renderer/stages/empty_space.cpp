@@ -62,8 +62,9 @@ void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector
 
 const gpu::Texture& EmptySpaceStage::insertDistances(Key key, const ResidentVolume& volume,
                                                      const std::vector<std::uint8_t>& marks) {
-    const auto distances =
-        emptyDistances(marks, CellLayout::of(volume.dims).cells, volume.meta->grid.periodic);
+    const auto layout = CellLayout::of(volume.dims);
+    const auto shortLast = glm::notEqual(layout.cells * layout.cellSamples, volume.dims);
+    const auto distances = emptyDistances(marks, layout.cells, volume.meta->grid.periodic, shortLast);
     return textures_.insert(std::move(key), cellTexture(context_, volume.dims, distances, GL_R8UI,
                                                         GL_RED_INTEGER, GL_UNSIGNED_BYTE));
 }

@@ -2,7 +2,8 @@
 
 // Index of a sample beyond the ends: wrapped on periodic axes, else the nearest.
 ivec3 sampleInside(ivec3 index, ivec3 size, vec3 periodic) {
-    ivec3 wrapped = index - size * ivec3(floor(vec3(index) / vec3(size)));
+    // The half keeps a division that is a little off away from whole numbers.
+    ivec3 wrapped = index - size * ivec3(floor((vec3(index) + 0.5) / vec3(size)));
     return ivec3(mix(vec3(clamp(index, ivec3(0), size - 1)), vec3(wrapped), periodic));
 }
 

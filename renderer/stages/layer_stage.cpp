@@ -22,13 +22,17 @@ std::string member(std::size_t layer, const char* name) {
 
 GLuint unitOf(GLuint first, std::size_t layer) { return first + static_cast<GLuint>(layer); }
 
-glm::dmat4 layerFromTexture(const ResidentVolume& volume, const ResidentVolume& layer) {
-    return glm::inverse(worldFromTexture(layer.meta->grid)) * worldFromTexture(volume.meta->grid);
+/// Both at the same point of the world; layers lie where they lie, whatever window of the own volume is
+/// drawn.
+glm::dmat4 layerFromTexture(const ResidentVolume& volume, const PeriodicWindow& window,
+                            const ResidentVolume& layer) {
+    const auto placed = placedGrid(volume.meta->grid, window);
+    return glm::inverse(worldFromTexture(layer.meta->grid)) * worldFromTexture(placed);
 }
 
 /// Samples of the layer, on any axis, that half a stretch in any direction covers at most.
 int reachSamples(const ResidentVolume& volume, const ResidentVolume& layer, double stretchVoxels) {
-    const auto rows = glm::transpose(glm::dmat3(layerFromTexture(volume, layer)));
+    const auto rows = glm::transpose(glm::dmat3(layerFromTexture(volume, {}, layer)));
     double largest = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max(largest, glm::length(rows[axis] / glm::dvec3(volume.dims)) * layer.dims[axis]);
@@ -46,7 +50,7 @@ void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, 
     };
     const auto mapping = classificationMapping(*layer.transfer, resident.valueScale, resident.valueOffset);
     const auto box = boxIndex(grid);
-    set("fromTexture", glm::mat4(layerFromTexture(volume, resident)));
+    set("fromTexture", glm::mat4(layerFromTexture(volume, tile.periodic, resident)));
     set("boxLow", glm::vec3((box.low + 0.5) / glm::dvec3(grid.dims) - kFaceSlack));
     set("boxHigh", glm::vec3((box.high + 0.5) / glm::dvec3(grid.dims) + kFaceSlack));
     set("voxels", glm::vec3(resident.dims));

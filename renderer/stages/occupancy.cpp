@@ -92,15 +92,23 @@ private:
     std::vector<unsigned> before_;
 };
 
+/// Whole cells from a cell to the one `step` further on a row of `count`: the last of the row, where it is
+/// short and lies between, does not count.
+std::uint8_t cellsApart(int cell, int step, int count, bool shortLast) {
+    const bool between = step > 0 ? cell != count - 1 && cell + step >= count : cell + step < -1;
+    return static_cast<std::uint8_t>(std::abs(step) - (shortLast && between ? 1 : 0));
+}
+
 /// For each cell the smallest over its row of max(steps to it, its distance): axis after axis this gives the
 /// Chebyshev distance.
 std::vector<std::uint8_t> nearestAlongAxis(const std::vector<std::uint8_t>& distances,
-                                           const glm::ivec3& cells, int axis, bool periodic) {
+                                           const glm::ivec3& cells, int axis, bool periodic, bool shortLast) {
     auto nearest = distances;
     const int count = cells[axis];
-    for (int step = -kFarthestCells + 1; step < kFarthestCells; ++step) {
-        if (step == 0) continue;
-        const auto far = static_cast<std::uint8_t>(std::abs(step));
+    const int reach = shortLast && periodic ? kFarthestCells : kFarthestCells - 1;
+    for (int step = -reach; step <= reach; ++step) {
+        if (step == 0 || std::abs(step) > count) continue;
+        auto far = static_cast<std::uint8_t>(std::abs(step));
         for (int z = 0; z < cells.z; ++z)
             for (int y = 0; y < cells.y; ++y) {
                 glm::ivec3 from(0, y, z);
@@ -110,6 +118,7 @@ std::vector<std::uint8_t> nearestAlongAxis(const std::vector<std::uint8_t>& dist
                     begin = std::max(0, -step);
                     end = std::min(cells.x, cells.x - step);
                 } else {
+                    far = cellsApart(from[axis], step, count, shortLast);
                     from[axis] += step;
                     if (periodic) from[axis] = ((from[axis] % count) + count) % count;
                     if (from[axis] < 0 || from[axis] >= count) continue;
@@ -122,7 +131,8 @@ std::vector<std::uint8_t> nearestAlongAxis(const std::vector<std::uint8_t>& dist
                 if (axis != 0 || !periodic) continue;
                 for (int x = 0; x < count; ++x)
                     if (x < begin || x >= end)
-                        out[x] = std::min(out[x], std::max(in[(((x + step) % count) + count) % count], far));
+                        out[x] = std::min(out[x], std::max(in[(((x + step) % count) + count) % count],
+                                                           cellsApart(x, step, count, shortLast)));
             }
     }
     return nearest;
@@ -167,13 +177,13 @@ std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3&
 }
 
 std::vector<std::uint8_t> emptyDistances(const std::vector<std::uint8_t>& marks, const glm::ivec3& cells,
-                                         const glm::bvec3& periodic) {
+                                         const glm::bvec3& periodic, const glm::bvec3& shortLast) {
     std::vector<std::uint8_t> distances(marks.size());
     std::transform(marks.begin(), marks.end(), distances.begin(), [](std::uint8_t mark) {
         return mark != 0 ? std::uint8_t{0} : std::uint8_t{kFarthestCells};
     });
     for (int axis = 0; axis < 3; ++axis)
-        distances = nearestAlongAxis(distances, cells, axis, periodic[axis]);
+        distances = nearestAlongAxis(distances, cells, axis, periodic[axis], shortLast[axis]);
     return distances;
 }
 

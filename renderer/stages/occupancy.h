@@ -36,10 +36,13 @@ inline constexpr int kLongReach = 4;  ///< where each stretch is looked up
                                                      const std::vector<double>& values, int reachSamples);
 
 /// Of each cell to the nearest one with a mark, in cells along the axis on which they lie farthest apart
-/// (Chebyshev), wrapped on periodic axes; 0: it has one itself; at most kFarthestCells.
+/// (Chebyshev), wrapped on periodic axes; 0: it has one itself; at most kFarthestCells. Whole cells only:
+/// `shortLast` says on which axes the last cell is narrower than the others, and one that lies between does
+/// not count.
 inline constexpr int kFarthestCells = 6;
 [[nodiscard]] std::vector<std::uint8_t> emptyDistances(const std::vector<std::uint8_t>& marks,
-                                                       const glm::ivec3& cells, const glm::bvec3& periodic);
+                                                       const glm::ivec3& cells, const glm::bvec3& periodic,
+                                                       const glm::bvec3& shortLast = glm::bvec3(false));
 
 /// Largest value within reach (sign = 1), or largest negated value (sign = -1); -infinity where all is NaN.
 [[nodiscard]] std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims,

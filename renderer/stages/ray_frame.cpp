@@ -5,22 +5,25 @@
 
 namespace voxsheet {
 
-RayFrame makeRayFrame(const CameraSpec& camera, glm::ivec2 sizePixels, const Grid& grid) {
+RayFrame makeRayFrame(const CameraSpec& camera, glm::ivec2 sizePixels, const Grid& grid,
+                      const PeriodicWindow& window) {
+    const auto drawn = drawnGrid(grid, window);
+    const auto placed = placedGrid(grid, window);
     RayFrame frame;
     frame.perspective = camera.projection == Projection::Perspective;
-    frame.radiusWorld = boundingRadiusWorld(grid);
+    frame.radiusWorld = boundingRadiusWorld(drawn);
     const double radius = frame.radiusWorld;
     const double aspect = double(sizePixels.x) / double(sizePixels.y);
     const double halfHeight = frame.perspective ? std::tan(0.5 * glm::radians(camera.fovYDegrees))
                                                 : 0.5 * camera.heightWorld / radius;
     frame.pictureHalf = {halfHeight * aspect, halfHeight};
 
-    const auto textureFromView = glm::inverse(camera.viewFromWorld * worldFromTexture(grid));
+    const auto textureFromView = glm::inverse(camera.viewFromWorld * worldFromTexture(placed));
     const glm::dmat3 linear(textureFromView);
     const auto right = linear[0] * radius;
     const auto up = linear[1] * radius;
     const auto ahead = -linear[2] * radius;
-    frame.centreDepthWorld = -(camera.viewFromWorld * glm::dvec4(centreWorld(grid), 1.0)).z;
+    frame.centreDepthWorld = -(camera.viewFromWorld * glm::dvec4(centreWorld(drawn), 1.0)).z;
     const double depth = frame.centreDepthWorld / radius;
 
     frame.origin = glm::dvec3(textureFromView[3]) + depth * ahead;
@@ -36,9 +39,9 @@ RayFrame makeRayFrame(const CameraSpec& camera, glm::ivec2 sizePixels, const Gri
         frame.originY = up;
         frame.nearest = -2.0; // the box reaches one radius either way
     }
-    const auto box = boxIndex(grid);
-    frame.boxLow = (box.low + 0.5) / glm::dvec3(grid.dims);
-    frame.boxHigh = (box.high + 0.5) / glm::dvec3(grid.dims);
+    const auto box = boxIndex(drawn);
+    frame.boxLow = (box.low + 0.5) / glm::dvec3(grid.dims) - wrappedShift(window);
+    frame.boxHigh = (box.high + 0.5) / glm::dvec3(grid.dims) - wrappedShift(window);
     return frame;
 }
 

@@ -22,7 +22,7 @@ void SharedStages::bindFor(const gpu::Program& program, const DrawRequest& reque
     const auto& [tile, volumes, frame, target, rows] = request;
     classification.bind(program, tile.transfer, volumes.volume);
     setRayUniforms(program, frame, tile.sizePixels);
-    ClipStage::bind(program, tile, volumes.volume.meta->grid, volumes.clipObject);
+    ClipStage::bind(program, tile, placedGrid(volumes.volume.meta->grid, tile.periodic), volumes.clipObject);
     ShadingStage::bind(program, tile, volumes.volume, volumes.gradients);
 }
 

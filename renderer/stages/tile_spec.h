@@ -7,6 +7,7 @@
 #include "stages/plane_spec.h"
 #include "stages/shading_spec.h"
 #include "volume/clip.h"
+#include "volume/periodic_window.h"
 #include "volume/texture_encoding.h"
 #include "volume/transfer_function.h"
 
@@ -42,6 +43,7 @@ struct TileSpec {
     double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
+    PeriodicWindow periodic;                      ///< of the cell's own volume only
     ClipSpec clip;                                ///< not for Plane
     ShadingSpec shading;                          ///< not for Mip and Plane
     IsosurfaceSpec isosurface;                    ///< Isosurface only

@@ -120,7 +120,8 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
                         volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
     for (const auto& layer : tileVolumes.layers)
         volumes.layers.push_back(&layer.volume());
-    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid);
+    validatePeriodicWindow(tile.periodic, volumes.volume.meta->grid);
+    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
     const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
     switch (tile.technique) {
     case Technique::Raycast:

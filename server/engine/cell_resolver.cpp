@@ -237,6 +237,17 @@ CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid, glm
     return spec;
 }
 
+PeriodicWindow periodicWindow(const sheet::PeriodicStyle& style) {
+    return {style.shift, glm::ivec3(glm::round(style.replicate))};
+}
+
+PeriodicWindow resolvePeriodicWindow(const sheet::PeriodicStyle& style, const Grid& grid) {
+    PeriodicWindow window = periodicWindow(style);
+    validatePeriodicWindow(window, grid);
+    window.shift = wrappedShift(window);
+    return window;
+}
+
 TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, const FieldAndStep& shown,
                      std::shared_ptr<const TransferTable> table, glm::ivec2 sizePixels, int level,
                      double sampleDistanceFactor) {
@@ -247,9 +258,11 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     const int wanted = style.level.value_or(std::max(level, static_cast<int>(style.quality)));
     spec.level = std::clamp(wanted, 0, meta.levels() - 1);
     spec.technique = drawnTechnique(style.technique);
+    spec.periodic = resolvePeriodicWindow(style.periodic, meta.grid);
+    const Grid drawn = drawnGrid(meta.grid, spec.periodic);
     const bool flat = style.technique == sheet::Technique::Plane;
     spec.camera = flat ? resolvePlaneCamera(style.plane, style.camera, meta, sizePixels)
-                       : resolveCamera(style.camera, meta.grid, sizePixels);
+                       : resolveCamera(style.camera, drawn, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
@@ -258,7 +271,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     if (flat)
         spec.plane = resolvePlane(style.plane, meta.grid);
     else
-        spec.clip.planes = resolveClipPlanes(style.clip, meta.grid);
+        spec.clip.planes = resolveClipPlanes(style.clip, drawn);
     spec.shading = resolveShading(style, spec.camera);
     spec.floatTexels =
         style.textureFormat == sheet::TextureFormat::Half ? FloatTexels::Half : FloatTexels::Full;

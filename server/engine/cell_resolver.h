@@ -46,8 +46,15 @@ struct FieldAndStep {
 /// The merged distribution of several cells, each with equal weight.
 [[nodiscard]] ValueSummary mergeSummaries(const std::vector<ValueSummary>& summaries);
 
-/// camera.fov is the vertical angle of pictures wider than high, the horizontal one of others: what fits,
-/// fits in both.
+/// What the style asks for, whether it fits a volume or not.
+[[nodiscard]] PeriodicWindow periodicWindow(const sheet::PeriodicStyle& style);
+
+/// Throws InvalidInput (field periodic.shift or periodic.replicate) if the style asks for it on an axis that
+/// is not periodic. The shift comes wrapped to [0, 1).
+[[nodiscard]] PeriodicWindow resolvePeriodicWindow(const sheet::PeriodicStyle& style, const Grid& grid);
+
+/// `grid`: whose box is drawn (drawnGrid). camera.fov is the vertical angle of pictures wider than high, the
+/// horizontal one of others: what fits, fits in both.
 [[nodiscard]] CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid,
                                        glm::ivec2 sizePixels);
 

@@ -69,7 +69,8 @@ LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet
     needs.work = std::to_string(static_cast<int>(tile.technique)) + (tile.shading.enabled ? "s" : "") +
                  (gradients ? "g" : "") + std::string(tile.layers.volumes.size(), 'l') + " " +
                  std::to_string(tile.sampleDistanceVoxels);
-    needs.texelEdgePixels = texelEdgePixels(meta.grid, tile.camera, tile.sizePixels);
+    needs.texelEdgePixels =
+        texelEdgePixels(drawnGrid(meta.grid, tile.periodic), tile.camera, tile.sizePixels);
     needs.finest = static_cast<int>(style.quality);
     needs.pinned = style.level;
     needs.textureBytes = bytesPerLevel(meta, tile.field, tile.floatTexels, exactR8Filtering,

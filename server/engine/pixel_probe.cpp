@@ -44,8 +44,8 @@ class RayProbe {
 public:
     RayProbe(const TileSpec& tile, const ProbedVolumes& volumes, glm::dvec2 pixel)
         : tile_(tile), volumes_(volumes), ray_(pixelRay(tile.camera, pixel, tile.sizePixels)),
-          textureFromWorld_(glm::inverse(worldFromTexture(volumes.grid))),
-          kept_(keptSpan(ray_, volumes.grid, tile.clip.planes)) {
+          textureFromWorld_(glm::inverse(worldFromTexture(placedGrid(volumes.grid, tile.periodic)))),
+          box_(drawnGrid(volumes.grid, tile.periodic)), kept_(keptSpan(ray_, box_, tile.clip.planes)) {
         if (tile.clip.object) object_.emplace(ray_, *tile.clip.object, *volumes.object);
         const glm::dvec3 texelsPerLength =
             glm::dvec3(textureFromWorld_ * glm::dvec4(ray_.direction, 0.0)) * glm::dvec3(volumes.level.dims);
@@ -101,7 +101,7 @@ private:
 
     /// The kept sample nearest to the middle of the box.
     [[nodiscard]] std::optional<PixelHit> middle() const {
-        const double wanted = glm::dot(centreWorld(volumes_.grid) - ray_.origin, ray_.direction);
+        const double wanted = glm::dot(centreWorld(box_) - ray_.origin, ray_.direction);
         if (wanted >= span().begin && wanted <= span().end && keeps(wanted))
             return at(wanted, HitKind::Middle);
         std::optional<double> nearest;
@@ -186,6 +186,7 @@ private:
     const ProbedVolumes& volumes_;
     Ray ray_;
     glm::dmat4 textureFromWorld_;
+    Grid box_; ///< the drawn one
     std::optional<KeptSpan> kept_;
     std::optional<ObjectCut> object_;
     int steps_ = 0;

@@ -1,6 +1,7 @@
 #include "engine/probe_service.h"
 
 #include "base/errors.h"
+#include "engine/cell_resolver.h"
 #include "engine/sample_reader.h"
 
 #include <algorithm>
@@ -28,8 +29,10 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
             const auto style =
                 sheet::resolveStyle(keys_, sheet, address, {view.all, view.cells, view.request}).style;
             const FieldAndStep shown = chooseField(style.field, style.timeStep, *content.meta);
+            const PeriodicWindow window = resolvePeriodicWindow(style.periodic, content.meta->grid);
             probe.unit = content.meta->fields[static_cast<std::size_t>(shown.field)].unit;
-            if (const auto sample = samplePoint(*volumes_, *content.meta, shown.field, shown.step, world)) {
+            if (const auto sample =
+                    samplePoint(*volumes_, *content.meta, shown.field, shown.step, window, world)) {
                 probe.value = sample->value;
                 probe.interpolated = sample->interpolated;
                 probe.index = sample->nearest;
@@ -58,10 +61,10 @@ std::optional<PixelHit> ProbeService::underPixel(const TileSpec& tile, const Dat
 
 void ProbeService::refine(PixelHit& hit, const TileSpec& tile, const DatasetMeta& meta, const Ray& ray,
                           int level) const {
-    const glm::dmat4 indexFromWorld = glm::inverse(meta.grid.worldFromIndex);
+    const glm::dmat4 indexFromWorld = glm::inverse(placedGrid(meta.grid, tile.periodic).worldFromIndex);
     const double voxel = 1.0 / glm::length(glm::dvec3(indexFromWorld * glm::dvec4(ray.direction, 0.0)));
     const double reach = 2.0 * std::ldexp(voxel, level);
-    const auto kept = keptSpan(ray, meta.grid, tile.clip.planes);
+    const auto kept = keptSpan(ray, drawnGrid(meta.grid, tile.periodic), tile.clip.planes);
     if (!kept) return;
     const RaySpan nearby{std::max(kept->span.begin, hit.depth - reach),
                          std::min(kept->span.end, hit.depth + reach)};

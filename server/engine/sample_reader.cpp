@@ -63,13 +63,18 @@ ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& me
 }
 
 std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta, int field,
-                                       int step, const glm::dvec3& world) {
-    const Grid& grid = meta.grid;
-    const glm::dvec3 p(glm::inverse(grid.worldFromIndex) * glm::dvec4(world, 1.0));
-    const IndexBox box = boxIndex(grid);
+                                       int step, const PeriodicWindow& window, const glm::dvec3& world) {
+    const auto indexIn = [&](const Grid& grid) {
+        return glm::dvec3(glm::inverse(grid.worldFromIndex) * glm::dvec4(world, 1.0));
+    };
+    const Grid drawn = drawnGrid(meta.grid, window);
+    const IndexBox box = boxIndex(drawn);
+    const glm::dvec3 inBox = indexIn(drawn);
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(p[axis] >= box.low[axis] - 1e-9 && p[axis] <= box.high[axis] + 1e-9)) return std::nullopt;
+        if (!(inBox[axis] >= box.low[axis] - 1e-9 && inBox[axis] <= box.high[axis] + 1e-9))
+            return std::nullopt;
     }
+    const glm::dvec3 p = indexIn(placedGrid(meta.grid, window));
     Level0Reader samples(volumes, meta, field, step);
     PointSample sample;
     sample.nearest = samples.wrapped(glm::ivec3(glm::floor(p + 0.5)));

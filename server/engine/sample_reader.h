@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/default_look.h"
+#include "volume/periodic_window.h"
 #include "volume/volume_provider.h"
 
 #include <glm/glm.hpp>
@@ -50,8 +51,10 @@ struct PointSample {
     std::optional<double> interpolated; ///< trilinear; absent: one of the eight is NaN, as in the picture
 };
 
-/// Wraps on periodic axes. Empty: the point lies outside the drawn box. Throws as readValues.
+/// Of the volume as a window shows it; wraps on periodic axes. Empty: the point lies outside the drawn box.
+/// Throws as readValues.
 [[nodiscard]] std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta,
-                                                     int field, int step, const glm::dvec3& world);
+                                                     int field, int step, const PeriodicWindow& window,
+                                                     const glm::dvec3& world);
 
 } // namespace voxsheet::engine

@@ -194,6 +194,8 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
     collector.add(static_cast<double>(tile.technique));
     addCamera(collector, tile.camera);
     addColours(collector, tile);
+    collector.add(wrappedShift(tile.periodic));
+    collector.add(tile.periodic.replicate);
     if (tile.technique != Technique::Plane) { // Nothing clips a plane, and each ray meets it once.
         addClip(collector, tile.clip);
         collector.add(tile.sampleDistanceVoxels);

@@ -242,7 +242,9 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
     const sheet::TypedStyle& style = look.resolved.style;
     TileSpec spec = resolveTile(style, *look.meta, look.shown, cache_.table(look.transfer.function),
                                 quality.sizePixels, quality.level, quality.sampleDistanceFactor);
-    if (look.clipObject) spec.clip.object = resolveClipObject(style.clip, *look.clipObject, look.meta->grid);
+    if (look.clipObject)
+        spec.clip.object =
+            resolveClipObject(style.clip, *look.clipObject, drawnGrid(look.meta->grid, spec.periodic));
     spec.isosurface = look.isosurface;
     if (const auto& by = look.colouredBy) {
         spec.isosurface.colouredBy =

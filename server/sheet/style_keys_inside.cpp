@@ -74,6 +74,26 @@ void addLayerKeys(std::vector<KeySpec>& keys) {
         "technique", {"raycast"}));
 }
 
+void addPeriodicKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Periodic";
+    KeySpec shift = typed(
+        "periodic.shift", KeyType::Vector3, glm::dvec3(0.0), group, "vector",
+        "Moves the data of a periodic volume inside its box, which stays where it is: what lay at "
+        "fraction f of the cell is drawn at f + shift, so 0.5, 0.5, 0.5 centres what was at the corner. "
+        "Clips, layers and colouring volumes stay where they are.");
+    shift.unit = "of the cell";
+    shift.min = -1.0;
+    shift.max = 1.0;
+    keys.push_back(shift);
+    KeySpec replicate = typed("periodic.replicate", KeyType::Vector3, glm::dvec3(1.0), group, "vector",
+                              "How many periods of a periodic volume are drawn along its axes: three whole "
+                              "numbers. The box grows from its origin, camera and clips follow it.");
+    replicate.unit = "periods";
+    replicate.min = 1.0;
+    replicate.max = 8.0;
+    keys.push_back(replicate);
+}
+
 void addClipKeys(std::vector<KeySpec>& keys) {
     const std::string group = "Clip";
     keys.push_back(withNone(

@@ -168,6 +168,7 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
     addLayerKeys(keys);
+    addPeriodicKeys(keys);
     addClipKeys(keys);
     addLightKeys(keys);
     addPicture(keys);

@@ -204,6 +204,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     if (const auto level = read.find<std::int64_t>("level")) style.level = static_cast<int>(*level);
     style.background = read.get<Colour>("background");
     style.annotations = read.choice<Annotations>("annotations", kAnnotations);
+    style.periodic = {read.get<glm::dvec3>("periodic.shift"), read.get<glm::dvec3>("periodic.replicate")};
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
     style.layers = layersOf(read);
@@ -269,6 +270,13 @@ void requirePlaneConsistent(const PlaneStyle& plane) {
             .withField("plane.normal");
 }
 
+void requirePeriodicConsistent(const PeriodicStyle& periodic) {
+    if (periodic.replicate != glm::round(periodic.replicate))
+        throw InvalidInput("periodic.replicate", "a number of periods is not whole",
+                           "give three whole numbers such as 2,2,1")
+            .withField("periodic.replicate");
+}
+
 void requireLightConsistent(const LightStyle& light) {
     for (const auto& direction : light.directions)
         if (isZero(direction))
@@ -287,6 +295,7 @@ void requireConsistent(const TypedStyle& style) {
                            "set both together")
             .withField("transfer.cut1");
     requireRangeConsistent(style.range);
+    requirePeriodicConsistent(style.periodic);
     requireClipConsistent(style.clip);
     requirePlaneConsistent(style.plane);
     requireLightConsistent(style.light);

@@ -136,6 +136,13 @@ struct PlaneStyle {
     bool operator==(const PlaneStyle&) const = default;
 };
 
+/// Which stretch of a periodic volume is drawn.
+struct PeriodicStyle {
+    glm::dvec3 shift{0.0};     ///< moves the data inside the box, in fractions of the cell
+    glm::dvec3 replicate{1.0}; ///< periods per axis, whole numbers in [1, 8]
+    bool operator==(const PeriodicStyle&) const = default;
+};
+
 enum class ShadingModel { Auto, None, Phong }; ///< Auto: Phong for isosurfaces, none otherwise
 enum class GradientSource { Auto, Texture, OnTheFly };
 enum class LightFrame { View, World };
@@ -173,6 +180,7 @@ struct TypedStyle {
     std::optional<int> level; ///< of the live picture; not set: by policy
     Colour background;
     Annotations annotations = Annotations::All;
+    PeriodicStyle periodic;
     ClipStyle clip;
     IsosurfaceStyle isosurface;
     LayersStyle layers;
@@ -189,8 +197,8 @@ struct TypedStyle {
 };
 
 /// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100];
-/// normals (of a plane only where plane.axis is custom), directions and scales not zero; clip.box low < high.
-/// Throws InvalidInput with the field at fault.
+/// periodic.replicate whole; normals (of a plane only where plane.axis is custom), directions and scales not
+/// zero; clip.box low < high. Throws InvalidInput with the field at fault.
 void requireConsistent(const TypedStyle& style);
 
 } // namespace voxsheet::sheet

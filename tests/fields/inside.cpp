@@ -107,7 +107,9 @@ void overStretches(const RayTruth& ray, Take take) {
 template <typename Take>
 void overSlabs(const RayTruth& ray, Take take) {
     const auto& tile = ray.tile;
-    const double centre = -(tile.camera.viewFromWorld * glm::dvec4(centreWorld(ray.sources.grid), 1.0)).z;
+    const double centre = -(tile.camera.viewFromWorld *
+                            glm::dvec4(centreWorld(drawnGrid(ray.sources.grid, tile.periodic)), 1.0))
+                               .z;
     const auto ahead = glm::dmat3(glm::inverse(tile.camera.viewFromWorld)) * glm::dvec3(0.0, 0.0, -1.0);
     const auto voxels = glm::dmat3(glm::inverse(worldFromTexture(ray.sources.grid))) * ahead *
                         glm::dvec3(ray.sources.levelDims);

@@ -11,7 +11,8 @@ namespace {
 /// between, the value is a cubic of the depth.
 std::vector<double> cellBorders(const RayTruth& ray) {
     std::vector<double> borders{ray.range.begin, ray.range.end};
-    const auto textureFromWorld = glm::inverse(worldFromTexture(ray.sources.grid));
+    const auto textureFromWorld =
+        glm::inverse(worldFromTexture(placedGrid(ray.sources.grid, ray.tile.periodic)));
     for (int axis = 0; axis < 3; ++axis) {
         const double n = ray.sources.levelDims[axis];
         const auto indexAt = [&](double depth) {

@@ -8,7 +8,7 @@ namespace voxsheet::fields {
 
 RayTruth::RayTruth(const TileSpec& tileSpec, const Sources& allSources, const WorldRay& worldRayOfPixel)
     : tile(tileSpec), sources(allSources), ray(worldRayOfPixel), range(keptRange(tile, sources.grid, ray)),
-      textureFromWorld_(glm::inverse(worldFromTexture(sources.grid))) {
+      textureFromWorld_(glm::inverse(worldFromTexture(placedGrid(sources.grid, tile.periodic)))) {
     const auto perDepth = glm::dmat3(textureFromWorld_) * ray.direction;
     voxelsPerDepth = glm::length(perDepth * glm::dvec3(sources.levelDims));
     lengthPerDepth = glm::length(ray.direction);

@@ -53,13 +53,14 @@ glm::dvec3 toEye(const TileSpec& tile, const WorldRay& ray) {
 }
 
 KeptRange keptRange(const TileSpec& tile, const Grid& grid, const WorldRay& ray) {
+    const auto drawn = drawnGrid(grid, tile.periodic);
     const bool perspective = tile.camera.projection == Projection::Perspective;
     KeptRange range;
     range.begin = perspective ? 0.0 : -std::numeric_limits<double>::infinity();
     range.end = std::numeric_limits<double>::infinity();
     range.fromEye = perspective;
     const auto indexFromWorld = glm::inverse(grid.worldFromIndex);
-    const auto box = boxIndex(grid);
+    const auto box = boxIndex(drawn);
     for (int axis = 0; axis < 3; ++axis) {
         // index_axis(p) = dot(row, p) + w
         const glm::dvec3 row(indexFromWorld[0][axis], indexFromWorld[1][axis], indexFromWorld[2][axis]);

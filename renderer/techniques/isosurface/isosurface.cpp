@@ -102,8 +102,8 @@ void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
         colours.push_back(surface.colour);
     }
     if (stages.skipEmptySpace) stages.emptySpace.bindCrossed(program, values, volume);
-    ColourVolumeStage::bind(program, tile.isosurface.colouredBy, volume.meta->grid, volumes.colours,
-                            stages.classification);
+    ColourVolumeStage::bind(program, tile.isosurface.colouredBy, placedGrid(volume.meta->grid, tile.periodic),
+                            volumes.colours, stages.classification);
     program.set("surfaceTexels", texels);
     program.set("surfaceColours", colours);
     program.set("tolerance", static_cast<float>(plainTestTolerance(volume)));
@@ -111,8 +111,9 @@ void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
     target.bindImage(0, GL_WRITE_ONLY);
-    dispatchPicture(program, tile.sizePixels,
-                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels, rows);
+    dispatchPicture(
+        program, tile.sizePixels,
+        glm::length(glm::dvec3(volume.dims * tile.periodic.replicate)) / tile.sampleDistanceVoxels, rows);
 }
 
 } // namespace voxsheet

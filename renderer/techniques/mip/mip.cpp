@@ -22,8 +22,9 @@ void drawMip(SharedStages& stages, const DrawRequest& request) {
     const float opacity = largestOpacity(*tile.transfer);
     program.set("opacityScale", opacity > 0.0F ? 1.0F / opacity : 0.0F);
     target.bindImage(0, GL_WRITE_ONLY);
-    dispatchPicture(program, tile.sizePixels,
-                    glm::length(glm::dvec3(volume.dims)) / tile.sampleDistanceVoxels, rows);
+    dispatchPicture(
+        program, tile.sizePixels,
+        glm::length(glm::dvec3(volume.dims * tile.periodic.replicate)) / tile.sampleDistanceVoxels, rows);
 }
 
 } // namespace voxsheet

@@ -36,9 +36,9 @@ std::optional<TextureBox> keptBox(const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     if (tile.clip.planes.empty()) return TextureBox{frame.boxLow, frame.boxHigh};
     const auto& grid = volumes.volume.meta->grid;
-    const auto polytope = clippedBox(grid, tile.clip.planes);
+    const auto polytope = clippedBox(drawnGrid(grid, tile.periodic), tile.clip.planes);
     if (polytope.empty()) return std::nullopt;
-    const auto textureFromWorld = glm::inverse(worldFromTexture(grid));
+    const auto textureFromWorld = glm::inverse(worldFromTexture(placedGrid(grid, tile.periodic)));
     TextureBox box{frame.boxHigh, frame.boxLow};
     for (const auto& face : polytope.faces)
         for (const auto& point : face.polygon) {
@@ -118,8 +118,9 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const double thickness = slabDepth * slabsPerPolygon;
     std::vector<SliceVertex> vertices;
     if (const auto box = keptBox(request)) {
+        const auto placed = placedGrid(volume.meta->grid, tile.periodic);
         const auto corners = cornersInView(*box, frame, 0.5 * thickness * steepest,
-                                           tile.camera.viewFromWorld * worldFromTexture(volume.meta->grid));
+                                           tile.camera.viewFromWorld * worldFromTexture(placed));
         vertices =
             triangles(sliceBox(corners, {0.0, thickness, frame.nearest - 0.5 * thickness}), frame, thickness);
     }

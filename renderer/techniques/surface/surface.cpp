@@ -98,10 +98,10 @@ void SurfaceTechnique::uploadVertices(std::span<const std::byte> bytes) {
 void SurfaceTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& grid = volumes.volume.meta->grid;
-    const auto polytope = clippedBox(grid, tile.clip.planes);
+    const auto polytope = clippedBox(drawnGrid(grid, tile.periodic), tile.clip.planes);
     const auto eye = glm::dvec3(glm::inverse(tile.camera.viewFromWorld)[3]);
     const bool eyeInside = frame.perspective && isInside(polytope, eye);
-    const auto faces = visibleFaces(polytope, tile, grid, frame, eyeInside);
+    const auto faces = visibleFaces(polytope, tile, placedGrid(grid, tile.periodic), frame, eyeInside);
 
     const gpu::Framebuffer framebuffer(context_, target, &depthFor(tile.sizePixels));
     const auto [firstRow, endRow] = rows.within(tile.sizePixels);

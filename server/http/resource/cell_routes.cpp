@@ -24,7 +24,7 @@ Response getCell(const ApiContext& context, const Request& request) {
                                      [&](const engine::CellStatus& entry) { return entry.cell == address; });
     const auto* found = sheet.find(address);
     const auto cell = found != nullptr ? *found : sheet::Cell{};
-    auto answer = cellState(address, cell, status != statuses.end() ? &*status : nullptr);
+    auto answer = cellState(address, cell, status != statuses.end() ? &*status : nullptr, resolved.style);
     const auto own = sheet::styleMapToJson(cell.style);
     // Flat, as PATCH takes them, and together for those who want them apart from the rest.
     answer.update(own);

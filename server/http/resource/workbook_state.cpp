@@ -1,5 +1,6 @@
 #include "http/resource/workbook_state.h"
 
+#include "engine/cell_resolver.h"
 #include "engine/dataset_json.h"
 #include "http/resource/edit_answer.h"
 #include "sheet/workbook_json.h"
@@ -50,7 +51,7 @@ nlohmann::json valuesJson(const sheet::ResolvedValues& values) {
 }
 
 nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
-                         const engine::CellStatus* status) {
+                         const engine::CellStatus* status, const sheet::TypedStyle& style) {
     const auto state = status != nullptr ? status->state : engine::CellState::Empty;
     const bool ready = state == engine::CellState::Ready && status->meta != nullptr;
     nlohmann::json out{{"cell", sheet::addressName(address)},
@@ -59,7 +60,11 @@ nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
                        {"state", stateWord(state)},
                        {"dataset", nullptr},
                        {"orientation", ready && status->meta->anatomical}};
-    out["box"] = ready ? engine::describeBox(status->meta->grid) : nlohmann::json();
+    out["box"] = nullptr;
+    if (ready) {
+        const auto window = engine::periodicWindow(style.periodic);
+        out["box"] = engine::describeBox(drawnGrid(status->meta->grid, window));
+    }
     if (cell.isDataset()) out["dataset"] = cell.source;
     if (status == nullptr) return out;
     out["code"] = status->code;
@@ -83,9 +88,10 @@ nlohmann::json sheetState(const engine::Engine& engine, const sheet::Workbook& w
             const auto* cell = sheet.find(address);
             if (cell == nullptr && !all) continue;
             const auto status = statuses.find(address);
+            const auto resolved = sheet::resolveStyle(engine.keys(), sheet, address);
             auto entry = cellState(address, cell != nullptr ? *cell : blank,
-                                   status != statuses.end() ? &status->second : nullptr);
-            entry["style"] = valuesJson(sheet::resolveStyle(engine.keys(), sheet, address).values);
+                                   status != statuses.end() ? &status->second : nullptr, resolved.style);
+            entry["style"] = valuesJson(resolved.values);
             cells.push_back(std::move(entry));
         }
     return {{"name", sheet.name},

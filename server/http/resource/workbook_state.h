@@ -22,8 +22,9 @@ namespace voxsheet::http {
 /// {"version", "canUndo", "canRedo", "workbook": document, "sheets": […]}
 [[nodiscard]] nlohmann::json workbookState(const engine::Engine& engine);
 
-/// One cell of sheetState, without its style. `status` may be null: the cell is empty.
+/// One cell of sheetState, without its style. `status` may be null: the cell is empty. `style`: the cell's,
+/// which says how many periods its box holds.
 [[nodiscard]] nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
-                                       const engine::CellStatus* status);
+                                       const engine::CellStatus* status, const sheet::TypedStyle& style);
 
 } // namespace voxsheet::http

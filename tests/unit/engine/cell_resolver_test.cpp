@@ -189,6 +189,36 @@ TEST_F(CellResolver, LevelAndQualityTakeTheCoarserWithinWhatThereIs) {
     EXPECT_EQ(tile({{"background", "transparent"}}, 0).background.w, 0.0F);
 }
 
+TEST_F(CellResolver, PeriodsMoveCameraAndClipsWithTheBoxAndTheShiftMovesNeither) {
+    const auto table = buildTransferTable(resolve(nlohmann::json::object(), density).function);
+    meta.grid.periodic = glm::bvec3(true, true, false);
+    const auto tile = [&](nlohmann::json values, const DatasetMeta& of) {
+        values["clip.planes"] = {{1, 0, 0, 0.5}};
+        return resolveTile(style(values).style, of, {0, 0}, table, {64, 64}, 0, 1.0);
+    };
+    DatasetMeta written = meta;
+    written.grid.dims = {128, 64, 32};
+    const auto expected = tile(nlohmann::json::object(), written);
+    const auto twice = tile({{"periodic.replicate", {2, 1, 1}}, {"periodic.shift", {0.25, -0.25, 0}}}, meta);
+    EXPECT_EQ(twice.periodic, (PeriodicWindow{{0.25, 0.75, 0.0}, {2, 1, 1}}));
+    EXPECT_EQ(twice.camera.viewFromWorld, expected.camera.viewFromWorld);
+    EXPECT_EQ(twice.clip, expected.clip);
+    EXPECT_EQ(twice.level, tile(nlohmann::json::object(), meta).level);
+    const auto refused = [&](const char* key, const nlohmann::json& value) {
+        try {
+            (void)tile({{key, value}}, meta);
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find("axis z of the volume is not periodic"),
+                      std::string::npos)
+                << error.what();
+            return error.field();
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refused("periodic.shift", {0, 0, 0.5}), "periodic.shift");
+    EXPECT_EQ(refused("periodic.replicate", {1, 1, 2}), "periodic.replicate");
+}
+
 TEST_F(CellResolver, SharedCellsSpanAllOfThem) {
     std::vector<float> high{1000, 1001, 1002, 1003, 1004, 1005, 1006, 1007};
     const ValueSummary merged = mergeSummaries({density, summariseValues(high, 1000, 1007)});

@@ -110,6 +110,18 @@ TEST(PixelProbe, AnOpacityOfItsOwnTakesTheFirstSampleThatReachesIt) {
     EXPECT_NEAR(scene.hit(kMiddle, 0.25)->world.z, 28.25, 0.3) << "only what is kept counts";
 }
 
+TEST(PixelProbe, SeesThePeriodsAndTheShiftThatThePictureShows) {
+    Scene scene([](const glm::dvec3& p) { return p.z >= 6 && p.z <= 20 ? 1.0 : 0.0; });
+    scene.grid.periodic = scene.level.periodic = glm::bvec3(true);
+    scene.setOpacity(0.0F, 0.99F);
+    scene.tile.periodic.shift.z = 5.0 / 33.0;
+    EXPECT_NEAR(scene.hit()->world.z, 25.25, 0.5);
+    scene.tile.periodic.replicate.z = 2;
+    EXPECT_NEAR(scene.hit()->world.z, 25.25 + 33.0, 0.5) << "the second period is nearer to the eye";
+    scene.tile.technique = Technique::Surface;
+    EXPECT_NEAR(scene.hit()->world.z, 66.0, 1e-9) << "the face of the drawn box";
+}
+
 TEST(PixelProbe, AMaximumProjectionAnswersWithTheLargestKeptValue) {
     Scene scene(alongZ);
     scene.tile.technique = Technique::Mip;

@@ -68,6 +68,8 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
         [](TileSpec& s) { s.background.w = 0.5F; },
         [](TileSpec& s) { s.sizePixels.y = 255; },
         [](TileSpec& s) { s.floatTexels = FloatTexels::Half; },
+        [](TileSpec& s) { s.periodic.shift.y = 0.5; },
+        [](TileSpec& s) { s.periodic.replicate.y = 2; },
         [](TileSpec& s) { s.clip.planes = {ClipPlane{}}; },
         [](TileSpec& s) {
             s.clip.planes = {ClipPlane{{1.0, 0.0, 0.0}, 0.5}};

@@ -265,6 +265,20 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
         EXPECT_THROW(parseStyleMap(testKeys(), wrong), InvalidInput) << wrong.dump();
 }
 
+TEST(Style, PeriodsAreWholeNumbers) {
+    TypedStyle style = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
+    EXPECT_EQ(style.periodic, PeriodicStyle{});
+    style.periodic.replicate = {2.0, 1.5, 1.0};
+    EXPECT_EQ(refusedField(style), "periodic.replicate");
+    style.periodic = {{0.5, -0.25, 0.0}, {2.0, 8.0, 1.0}};
+    EXPECT_NO_THROW(requireConsistent(style));
+    EXPECT_EQ(parseAssignment(testKeys(), "periodic.replicate=2,2,1").second,
+              std::optional<StyleValue>(glm::dvec3(2.0, 2.0, 1.0)));
+    for (const char* refused :
+         {"periodic.replicate=9,1,1", "periodic.replicate=0,1,1", "periodic.shift=2,0,0"})
+        EXPECT_THROW((void)parseAssignment(testKeys(), refused), InvalidInput) << refused;
+}
+
 TEST(Style, DegenerateClipsPlanesAndLightsAreRefused) {
     const TypedStyle initial = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
     TypedStyle style = initial;

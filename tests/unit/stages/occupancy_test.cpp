@@ -121,6 +121,24 @@ TEST(Occupancy, EmptyDistancesAreThoseToTheNearestMark) {
     }
 }
 
+TEST(Occupancy, AShortLastCellDoesNotCountWhereItLiesBetween) {
+    const glm::ivec3 cells(9, 1, 1);
+    std::vector<std::uint8_t> marks(9, 0);
+    marks[1] = 1;
+    const glm::bvec3 periodic(true, false, false);
+    // 7 is 3 steps from the mark by way of 8 and 0, of which 8 is short; 8 itself has only 0 between.
+    EXPECT_EQ(emptyDistances(marks, cells, periodic, periodic),
+              (std::vector<std::uint8_t>{1, 0, 1, 2, 3, 4, 3, 2, 2}));
+    EXPECT_EQ(emptyDistances(marks, cells, periodic), (std::vector<std::uint8_t>{1, 0, 1, 2, 3, 4, 4, 3, 2}));
+    // Six steps on, but five whole cells.
+    const glm::ivec3 upright(1, 14, 1);
+    marks.assign(14, 0);
+    marks[0] = 1;
+    const glm::bvec3 y(false, true, false);
+    EXPECT_EQ(emptyDistances(marks, upright, y, y),
+              (std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 6, 5, 4, 3, 2, 1, 1}));
+}
+
 TEST(Occupancy, LargeVolumesUseLargerCells) {
     EXPECT_EQ(CellLayout::of(glm::ivec3(256)).cellSamples, 4);
     EXPECT_EQ(CellLayout::of(glm::ivec3(1024)).cellSamples, 4);

@@ -61,6 +61,11 @@ TEST(RayFrame, TheBoxOfPeriodicGridsReachesTheFirstSampleAgain) {
     EXPECT_DOUBLE_EQ(frame.boxLow.x, 0.5 / 20);
     EXPECT_DOUBLE_EQ(frame.boxHigh.x, 1.0 + 0.5 / 20);
     EXPECT_DOUBLE_EQ(frame.boxHigh.y, 1.0 - 0.5 / 30);
+    const auto window = makeRayFrame(cameraAt(grid, Projection::Perspective), {100, 100}, grid,
+                                     {{0.25, 0.0, 0.0}, {3, 1, 1}});
+    EXPECT_DOUBLE_EQ(window.boxLow.x, 0.5 / 20 - 0.25);
+    EXPECT_DOUBLE_EQ(window.boxHigh.x, 3.0 + 0.5 / 20 - 0.25);
+    EXPECT_DOUBLE_EQ(window.boxHigh.y, 1.0 - 0.5 / 30);
 }
 
 TEST(Classification, TexelsMapToTheEntriesOfTheirValues) {
