@@ -261,7 +261,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.periodic = resolvePeriodicWindow(style.periodic, meta.grid);
     const Grid drawn = drawnGrid(meta.grid, spec.periodic);
     const bool flat = style.technique == sheet::Technique::Plane;
-    spec.camera = flat ? resolvePlaneCamera(style.plane, style.camera, meta, sizePixels)
+    spec.camera = flat ? resolvePlaneCamera(style.plane, style.camera, drawn, meta.anatomical, sizePixels)
                        : resolveCamera(style.camera, drawn, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
@@ -269,7 +269,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.background = glm::vec4(opaqueOf(style.background));
     spec.sizePixels = sizePixels;
     if (flat)
-        spec.plane = resolvePlane(style.plane, meta.grid);
+        spec.plane = resolvePlane(style.plane, drawn);
     else
         spec.clip.planes = resolveClipPlanes(style.clip, drawn);
     spec.shading = resolveShading(style, spec.camera);

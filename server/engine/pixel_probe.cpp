@@ -193,7 +193,7 @@ private:
     double step_ = 0.0; ///< half a voxel of the level at most
 };
 
-/// As renderer/techniques/plane/plane.h.
+/// As renderer/techniques/plane/plane.h, in the drawn grid.
 std::optional<PixelHit> planeHit(const PlaneSpec& plane, const Grid& grid, const Ray& ray) {
     constexpr double edgeOn = 1e-9;
     constexpr double faceSlack = 1e-5; // texture frame
@@ -216,7 +216,8 @@ std::optional<PixelHit> planeHit(const PlaneSpec& plane, const Grid& grid, const
 std::optional<PixelHit> pixelHit(const TileSpec& tile, const ProbedVolumes& volumes, glm::dvec2 pixel,
                                  std::optional<double> opacity) {
     if (tile.technique == Technique::Plane)
-        return planeHit(tile.plane, volumes.grid, pixelRay(tile.camera, pixel, tile.sizePixels));
+        return planeHit(tile.plane, drawnGrid(volumes.grid, tile.periodic),
+                        pixelRay(tile.camera, pixel, tile.sizePixels));
     return RayProbe(tile, volumes, pixel).hit(opacity);
 }
 

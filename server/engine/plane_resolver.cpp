@@ -68,13 +68,13 @@ PlaneSpec resolvePlane(const sheet::PlaneStyle& plane, const Grid& grid) {
 }
 
 CameraSpec resolvePlaneCamera(const sheet::PlaneStyle& plane, const sheet::CameraStyle& camera,
-                              const DatasetMeta& meta, glm::ivec2 sizePixels) {
-    const PlaneView view = planeView(plane, meta.anatomical);
+                              const Grid& grid, bool anatomical, glm::ivec2 sizePixels) {
+    const PlaneView view = planeView(plane, anatomical);
     const double aspect = static_cast<double>(sizePixels.x) / static_cast<double>(sizePixels.y);
-    const double fitting = std::max(extentAlong(view.up, meta.grid).length(),
-                                    extentAlong(view.right, meta.grid).length() / aspect);
-    const double radius = boundingRadiusWorld(meta.grid);
-    const glm::dvec3 target = centreWorld(meta.grid) + camera.targetRadii * radius;
+    const double fitting =
+        std::max(extentAlong(view.up, grid).length(), extentAlong(view.right, grid).length() / aspect);
+    const double radius = boundingRadiusWorld(grid);
+    const glm::dvec3 target = centreWorld(grid) + camera.targetRadii * radius;
     const glm::dvec3 eye = target + camera.distanceRadii * radius * view.towardsEye;
     const glm::dmat3 viewFromWorldAxes = glm::transpose(glm::dmat3(view.right, view.up, view.towardsEye));
 

@@ -3,7 +3,6 @@
 
 #include "sheet/typed_style.h"
 #include "stages/tile_spec.h"
-#include "volume/dataset.h"
 #include "volume/grid.h"
 
 #include <glm/glm.hpp>
@@ -26,6 +25,8 @@ struct PlaneView {
 /// Anatomical pictures are in the radiological convention: the patient's right is on the picture's left.
 [[nodiscard]] PlaneView planeView(const sheet::PlaneStyle& plane, bool anatomical);
 
+/// The grids below are the drawn ones (volume/periodic_window.h).
+
 /// The normal is that of the table above, whichever side the eye is on: position rises along it.
 [[nodiscard]] PlaneSpec resolvePlane(const sheet::PlaneStyle& plane, const Grid& grid);
 
@@ -33,6 +34,6 @@ struct PlaneView {
 /// distance shows half of that. camera.target moves the picture by what of it lies in the plane; the
 /// camera's angles, field of view and projection mean nothing.
 [[nodiscard]] CameraSpec resolvePlaneCamera(const sheet::PlaneStyle& plane, const sheet::CameraStyle& camera,
-                                            const DatasetMeta& meta, glm::ivec2 sizePixels);
+                                            const Grid& grid, bool anatomical, glm::ivec2 sizePixels);
 
 } // namespace voxsheet::engine

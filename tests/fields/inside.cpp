@@ -146,17 +146,18 @@ glm::dvec4 facePixel(const RayTruth& ray) {
 
 glm::dvec4 planePixel(const RayTruth& ray) {
     const auto& plane = ray.tile.plane;
-    const auto& grid = ray.sources.grid;
+    const auto drawn = drawnGrid(ray.sources.grid, ray.tile.periodic);
     const double advance = glm::dot(plane.normal, ray.ray.direction);
     if (advance == 0.0) return glm::dvec4(0.0);
     const auto point = ray.ray.at((plane.offset - glm::dot(plane.normal, ray.ray.origin)) / advance);
-    const auto index = glm::dvec3(glm::inverse(grid.worldFromIndex) * glm::dvec4(point, 1.0));
-    const auto box = boxIndex(grid);
-    const auto slack = 1e-5 * glm::dvec3(grid.dims);
+    const auto index = glm::dvec3(glm::inverse(drawn.worldFromIndex) * glm::dvec4(point, 1.0));
+    const auto box = boxIndex(drawn);
+    const auto slack = 1e-5 * glm::dvec3(ray.sources.grid.dims);
     if (glm::any(glm::lessThan(index, box.low - slack)) ||
         glm::any(glm::greaterThan(index, box.high + slack)))
         return glm::dvec4(0.0);
-    const auto texture = (index + 0.5) / glm::dvec3(grid.dims);
+    const auto placed = placedGrid(ray.sources.grid, ray.tile.periodic);
+    const auto texture = glm::dvec3(glm::inverse(worldFromTexture(placed)) * glm::dvec4(point, 1.0));
     const auto aboveBorder = 1.0 / 1024.0 / glm::dvec3(ray.sources.levelDims);
     const double value = plane.interpolation == PlaneInterpolation::Nearest
                              ? ray.sources.nearest(texture + aboveBorder)

@@ -87,8 +87,9 @@ double Interpolant::at(const glm::dvec3& texture) const {
 }
 
 double Interpolant::nearest(const glm::dvec3& texture) const {
+    const auto wrapped = glm::mix(texture, glm::fract(texture), periodic_);
     const auto sample = glm::ivec3(
-        glm::clamp(glm::floor(texture * glm::dvec3(dims_)), glm::dvec3(0.0), glm::dvec3(dims_ - 1)));
+        glm::clamp(glm::floor(wrapped * glm::dvec3(dims_)), glm::dvec3(0.0), glm::dvec3(dims_ - 1)));
     return values_[static_cast<std::size_t>((static_cast<long>(sample.z) * dims_.y + sample.y) * dims_.x +
                                             sample.x)];
 }

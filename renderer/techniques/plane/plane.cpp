@@ -48,7 +48,7 @@ void drawPlane(SharedStages& stages, const DrawRequest& request) {
 
     stages.classification.bind(program, tile.transfer, volume);
     setRayUniforms(program, frame, tile.sizePixels);
-    const auto onPlane = planeInPicture(tile.plane, frame, volume.meta->grid);
+    const auto onPlane = planeInPicture(tile.plane, frame, placedGrid(volume.meta->grid, tile.periodic));
     const PlaneInPicture picture = onPlane.value_or(PlaneInPicture{});
     program.set("planeSeen", onPlane ? 1.0F : 0.0F);
     program.set("planeOrigin", glm::vec3(picture.origin));

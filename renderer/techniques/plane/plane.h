@@ -22,6 +22,7 @@ struct PlaneInPicture {
 };
 
 /// \param frame  of an orthographic camera
+/// \param grid   the placed one (volume/periodic_window.h), as the frame's texture frame
 /// Empty if the plane is seen edge-on.
 [[nodiscard]] std::optional<PlaneInPicture> planeInPicture(const PlaneSpec& plane, const RayFrame& frame,
                                                            const Grid& grid);

@@ -204,6 +204,13 @@ TEST_F(CellResolver, PeriodsMoveCameraAndClipsWithTheBoxAndTheShiftMovesNeither)
     EXPECT_EQ(twice.camera.viewFromWorld, expected.camera.viewFromWorld);
     EXPECT_EQ(twice.clip, expected.clip);
     EXPECT_EQ(twice.level, tile(nlohmann::json::object(), meta).level);
+    const nlohmann::json flat = {
+        {"technique", "plane"}, {"plane.axis", "sagittal"}, {"plane.position", 0.75}};
+    auto flatTwice = flat;
+    flatTwice["periodic.replicate"] = {2, 1, 1};
+    EXPECT_EQ(tile(flatTwice, meta).plane.offset, tile(flat, written).plane.offset);
+    EXPECT_EQ(tile(flatTwice, meta).camera.viewFromWorld, tile(flat, written).camera.viewFromWorld);
+    EXPECT_EQ(tile(flatTwice, meta).camera.heightWorld, tile(flat, written).camera.heightWorld);
     const auto refused = [&](const char* key, const nlohmann::json& value) {
         try {
             (void)tile({{key, value}}, meta);

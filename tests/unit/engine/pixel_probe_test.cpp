@@ -120,6 +120,9 @@ TEST(PixelProbe, SeesThePeriodsAndTheShiftThatThePictureShows) {
     EXPECT_NEAR(scene.hit()->world.z, 25.25 + 33.0, 0.5) << "the second period is nearer to the eye";
     scene.tile.technique = Technique::Surface;
     EXPECT_NEAR(scene.hit()->world.z, 66.0, 1e-9) << "the face of the drawn box";
+    scene.tile.technique = Technique::Plane;
+    scene.tile.plane.offset = 50.0;
+    EXPECT_NEAR(scene.hit().value().world.z, 50.0, 1e-9) << "beyond the first period";
 }
 
 TEST(PixelProbe, AMaximumProjectionAnswersWithTheLargestKeptValue) {

@@ -92,9 +92,10 @@ TEST_P(EveryKey, KeepsItsBounds) {
         refusesJson(json::array({0, 0}));
         refusesJson(json::array({0, 0, 0, 0}));
         refusesJson(json::array({0, 0, key().max * 1.01}));
-        refusesJson(json::array({key().min * 1.01, 0, 0}));
-        EXPECT_EQ(parseStyleValue(key(), json::array({key().min, 0, key().max})),
-                  StyleValue(glm::dvec3(key().min, 0, key().max)));
+        refusesJson(json::array({key().min - 0.01 * std::abs(key().min), 0, 0}));
+        const double between = std::max(0.0, key().min);
+        EXPECT_EQ(parseStyleValue(key(), json::array({key().min, between, key().max})),
+                  StyleValue(glm::dvec3(key().min, between, key().max)));
     }
     if (key().type == KeyType::NumberRows) {
         const json row(std::vector<double>(key().columnNames.size(), 0.5));
