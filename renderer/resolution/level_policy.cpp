@@ -1,9 +1,6 @@
 #include "resolution/level_policy.h"
 
-#include "base/errors.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,25 +12,6 @@ namespace voxsheet {
 namespace {
 
 constexpr double kFocusWeight = 16.0;
-
-struct NamedPolicy {
-    LevelPolicy policy;
-    const char* name;
-    ResolutionCriterion criterion;
-};
-
-constexpr std::array<NamedPolicy, 8> kPolicies{{
-    {LevelPolicy::Off, "off", ResolutionCriterion::Off},
-    {LevelPolicy::Focus, "focus", ResolutionCriterion::Off},
-    {LevelPolicy::Slope, "slope", ResolutionCriterion::Slope},
-    {LevelPolicy::SlopeFirst, "slope-first", ResolutionCriterion::SlopeFirst},
-    {LevelPolicy::Time, "time", ResolutionCriterion::Time},
-    {LevelPolicy::Rate, "rate", ResolutionCriterion::Rate},
-    {LevelPolicy::Count, "count", ResolutionCriterion::Count},
-    {LevelPolicy::Bytes, "bytes", ResolutionCriterion::Bytes},
-}};
-
-const NamedPolicy& rowOf(LevelPolicy policy) { return kPolicies.at(static_cast<std::size_t>(policy)); }
 
 /// In octaves of texel size, of which those below a pixel do not count.
 double gainOfLevel(const CellDemand& cell, int level) {
@@ -223,47 +201,13 @@ private:
     std::vector<LoweringStep> steps_;                         ///< one per volume
 };
 
-void positive(double value, const char* field, const char* what) {
-    if (std::isfinite(value) && value > 0.0) return;
-    throw InvalidInput(what, "it must be a number above 0", "give one, or leave it out").withField(field);
-}
-
 } // namespace
-
-const char* levelPolicyName(LevelPolicy policy) { return rowOf(policy).name; }
-
-LevelPolicy levelPolicyFromName(std::string_view name) {
-    for (const auto& row : kPolicies)
-        if (row.name == name) return row.policy;
-    std::string known;
-    for (const auto& row : kPolicies)
-        known += (known.empty() ? "" : ", ") + std::string(row.name);
-    throw InvalidInput("policy of levels of detail", "there is no `" + std::string(name) + "`",
-                       "choose one of " + known)
-        .withField("policy");
-}
-
-std::vector<std::string> levelPolicyNames() {
-    std::vector<std::string> names;
-    for (const auto& row : kPolicies)
-        names.emplace_back(row.name);
-    return names;
-}
-
-void validateLevelSettings(const LevelSettings& settings) {
-    positive(settings.frameMs, "frame_ms", "longest time of a frame");
-    positive(settings.framesPerSecond, "frames_per_second", "fewest frames per second");
-    positive(settings.datasets, "datasets", "number of datasets");
-    positive(static_cast<double>(settings.bytes), "bytes", "number of bytes");
-    positive(settings.upFraction, "up_fraction", "share for going back to a finer level");
-    if (settings.upFraction > 1.0)
-        throw InvalidInput("share for going back to a finer level", "it must be at most 1", "give 0.8")
-            .withField("up_fraction");
-}
 
 ResolutionRule ruleOf(const LevelSettings& settings) {
     ResolutionRule rule;
-    rule.criterion = rowOf(settings.policy).criterion;
+    // Policies for all cells are named after their criterion; the others have none.
+    rule.criterion =
+        resolutionCriterionFromName(levelPolicyName(settings.policy)).value_or(ResolutionCriterion::Off);
     rule.frameMs = settings.frameMs;
     rule.framesPerSecond = settings.framesPerSecond;
     rule.datasets = settings.datasets;

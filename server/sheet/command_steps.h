@@ -14,6 +14,7 @@ void perform(Workbook& workbook, const SetSource& command);
 void perform(Workbook& workbook, const SetTitle& command);
 void perform(Workbook& workbook, const SetWorkbookTitle& command);
 void perform(Workbook& workbook, const SetLayout& command);
+void perform(Workbook& workbook, const SetLevels& command);
 void perform(Workbook& workbook, const InsertLines& command);
 void perform(Workbook& workbook, const DeleteLines& command);
 void perform(Workbook& workbook, const ClearCells& command);

@@ -31,6 +31,10 @@ struct Labeller {
     std::string operator()(const SetLayout& c) const {
         return "Arrange in " + std::to_string(c.columns) + (c.columns == 1 ? " column" : " columns");
     }
+    std::string operator()(const SetLevels& c) const {
+        return "Levels of detail: " +
+               std::string(c.levels ? levelPolicyName(c.levels->policy) : "as the server was started");
+    }
     std::string operator()(const InsertLines& c) const {
         return "Insert " +
                several(static_cast<std::size_t>(c.count), c.axis == Axis::Columns ? "column" : "row");

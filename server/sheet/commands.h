@@ -45,6 +45,12 @@ struct SetLayout {
 
 enum class Axis { Columns, Rows };
 
+/// How the levels of detail of the sheet's cells are chosen; absent: as the server was told at its start.
+struct SetLevels {
+    std::string sheet;
+    std::optional<LevelSettings> levels;
+};
+
 /// Inserts blank columns or rows before `at`; formulas follow.
 struct InsertLines {
     std::string sheet;
@@ -138,9 +144,9 @@ struct ReplaceWorkbook {
 };
 
 using Command =
-    std::variant<SetStyle, SetSource, SetTitle, SetWorkbookTitle, SetLayout, InsertLines, DeleteLines,
-                 ClearCells, MoveCells, SwapCells, AddDatasets, UpdateDataset, RemoveDataset, RenameDataset,
-                 ReplacePathPrefix, AddSheet, RenameSheet, DeleteSheet, ReplaceWorkbook>;
+    std::variant<SetStyle, SetSource, SetTitle, SetWorkbookTitle, SetLayout, SetLevels, InsertLines,
+                 DeleteLines, ClearCells, MoveCells, SwapCells, AddDatasets, UpdateDataset, RemoveDataset,
+                 RenameDataset, ReplacePathPrefix, AddSheet, RenameSheet, DeleteSheet, ReplaceWorkbook>;
 
 /// The next snapshot (its version is that of `workbook`). Nothing changes when it throws: InvalidInput,
 /// NotFound, Conflict or LimitExceeded. A SetStyle that would leave keys of an affected cell in disagreement

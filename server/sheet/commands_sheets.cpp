@@ -55,6 +55,11 @@ void perform(Workbook& workbook, const DeleteSheet& command) {
     rewriteAll(workbook, name, {});
 }
 
+void perform(Workbook& workbook, const SetLevels& command) {
+    if (command.levels) validateLevelSettings(*command.levels);
+    editSheet(workbook, command.sheet).levels = command.levels;
+}
+
 void perform(Workbook& workbook, const ReplaceWorkbook& command) {
     if (!command.workbook) throw InvalidInput("workbook", "is absent");
     workbook = *command.workbook;

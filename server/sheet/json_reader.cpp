@@ -79,6 +79,11 @@ std::int64_t JsonReader::integer(std::int64_t min, std::int64_t max) const {
     return value_->get<std::int64_t>();
 }
 
+double JsonReader::number() const {
+    if (!value_->is_number()) refuse("is no number", "give one");
+    return value_->get<double>();
+}
+
 bool JsonReader::boolean() const {
     if (!value_->is_boolean()) refuse("is neither true nor false", "give one of them");
     return value_->get<bool>();

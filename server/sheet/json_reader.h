@@ -33,6 +33,7 @@ public:
 
     [[nodiscard]] std::string text() const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
+    [[nodiscard]] double number() const;
     [[nodiscard]] bool boolean() const;
 
     [[noreturn]] void refuse(const std::string& why, const std::string& toDo) const;

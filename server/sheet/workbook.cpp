@@ -43,6 +43,14 @@ void validateCell(const Sheet& sheet, const std::string& path, const Address& ad
                "add it to datasets, or begin a formula with =");
 }
 
+void validateLevels(const std::string& path, const LevelSettings& levels) {
+    try {
+        validateLevelSettings(levels);
+    } catch (const InvalidInput& error) {
+        refuse(path + "." + error.field(), error.why(), error.toDo());
+    }
+}
+
 void validateSheet(const Workbook& workbook, std::size_t index) {
     const Sheet& sheet = workbook.sheets[index];
     const std::string path = "sheets[" + std::to_string(index) + "]";
@@ -57,6 +65,7 @@ void validateSheet(const Workbook& workbook, std::size_t index) {
         refuse(path + ".rows", "is not from 1 to " + std::to_string(kMaxRows), "give such a number");
     if (static_cast<std::size_t>(sheet.columns) * static_cast<std::size_t>(sheet.rows) > kMaxCells)
         refuse(path, "has more than " + std::to_string(kMaxCells) + " cells", "use several sheets");
+    if (sheet.levels) validateLevels(path + ".levels", *sheet.levels);
     validateHeaders(path + ".columnHeaders", sheet.columnHeaders, sheet.columns, true);
     validateHeaders(path + ".rowHeaders", sheet.rowHeaders, sheet.rows, false);
     for (const auto& [address, cell] : sheet.cells)

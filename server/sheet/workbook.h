@@ -2,12 +2,14 @@
 // every edit makes a new one (commands.h, history.h), so that readers on any thread need no lock.
 #pragma once
 
+#include "resolution/level_settings.h"
 #include "sheet/address.h"
 #include "sheet/style_value.h"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +59,9 @@ struct Sheet {
     /// only.
     bool autoLayout = true;
     StyleMap style;
+    /// How the levels of detail of its cells are chosen on pages; absent: as the server was told at its
+    /// start.
+    std::optional<LevelSettings> levels;
     std::map<int, Header> columnHeaders; ///< by column, from 0; none of them blank
     std::map<int, Header> rowHeaders;    ///< by row, from 0; none of them blank
     std::map<Address, Cell> cells;       ///< inside columns x rows; none of them blank

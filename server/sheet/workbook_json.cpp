@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "sheet/bounded_json.h"
 #include "sheet/json_reader.h"
+#include "sheet/level_settings_json.h"
 #include "sheet/utf8.h"
 
 #include <nlohmann/json.hpp>
@@ -54,6 +55,7 @@ ordered_json sheetToJson(const Sheet& sheet) {
     object["rows"] = sheet.rows;
     if (!sheet.autoLayout) object["autoLayout"] = false;
     if (!sheet.style.empty()) object["style"] = styleToOrdered(sheet.style);
+    if (sheet.levels) object["levels"] = levelSettingsToJson(*sheet.levels);
     for (const auto& [column, header] : sheet.columnHeaders)
         object["columnHeaders"][columnName(column)] = headerToJson(header);
     for (const auto& [row, header] : sheet.rowHeaders)
@@ -127,8 +129,8 @@ Cell readCell(const JsonReader& node, const KeyTable& keys) {
 }
 
 Sheet readSheet(const JsonReader& node, const KeyTable& keys) {
-    node.allow(
-        {"name", "title", "columns", "rows", "autoLayout", "style", "columnHeaders", "rowHeaders", "cells"});
+    node.allow({"name", "title", "columns", "rows", "autoLayout", "style", "levels", "columnHeaders",
+                "rowHeaders", "cells"});
     Sheet sheet;
     sheet.name = node.at("name").text();
     if (const auto title = node.find("title")) sheet.title = title->text();
@@ -136,6 +138,7 @@ Sheet readSheet(const JsonReader& node, const KeyTable& keys) {
     sheet.rows = static_cast<int>(node.at("rows").integer(1, kMaxRows));
     if (const auto automatic = node.find("autoLayout")) sheet.autoLayout = automatic->boolean();
     if (const auto style = node.find("style")) sheet.style = readStyle(*style, keys);
+    if (const auto levels = node.find("levels")) sheet.levels = levelSettingsFromJson(*levels);
     if (const auto headers = node.find("columnHeaders"))
         sheet.columnHeaders = readHeaders(*headers, keys, parseColumn);
     if (const auto headers = node.find("rowHeaders"))

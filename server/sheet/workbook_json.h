@@ -3,6 +3,7 @@
 //   {"voxsheet": 1, "title": "…",
 //    "datasets": {"run1": {"files": ["run1/CHGCAR"], "bytes": 123, "checksum": "xxh3:…", "options": {}}},
 //    "sheets": [{"name": "Sheet1", "title": "…", "columns": 3, "rows": 2, "style": {…},
+//                "levels": {"policy": "slope", …} (level_settings_json.h),
 //                "columnHeaders": {"A": {"title": "…", "style": {…}}}, "rowHeaders": {"1": {…}},
 //                "cells": {"A1": {"source": "run1", "title": "…", "style": {…}}, "B1": {"source":
 //                "=B1-A1"}}}]}

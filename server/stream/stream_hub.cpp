@@ -2,7 +2,9 @@
 
 #include "stream/stream_client.h"
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 namespace voxsheet::stream {
 
@@ -33,6 +35,7 @@ StreamHub::StreamHub(engine::Engine& engine, TileService& tiles, const LevelSett
     : engine_(engine), tiles_(tiles), levelSettings_(levels) {
     validateLevelSettings(levels);
     listener_ = engine_.addListener([this](engine::ChangeKind kind, std::uint64_t version) {
+        if (kind == engine::ChangeKind::Workbook) applyLevelSettings();
         const std::lock_guard lock(mutex_);
         for (const auto& [id, client] : clients_)
             client->changed(kind, version);
@@ -92,8 +95,30 @@ ClientView StreamHub::view(const std::string& id) const {
 SheetLevels& StreamHub::levelsOf(const std::string& sheet) {
     auto& levels = levels_[sheet];
     if (!levels)
-        levels = std::make_unique<SheetLevels>(levelSettings_, [this, sheet] { levelsChanged(sheet); });
+        levels = std::make_unique<SheetLevels>(settingsOf(sheet).value_or(levelSettings_),
+                                               [this, sheet] { levelsChanged(sheet); });
     return *levels;
+}
+
+std::optional<LevelSettings> StreamHub::settingsOf(const std::string& sheet) const {
+    const auto workbook = engine_.snapshot();
+    const auto& sheets = workbook->sheets;
+    const auto found =
+        std::find_if(sheets.begin(), sheets.end(), [&](const auto& each) { return each.name == sheet; });
+    if (found == sheets.end()) return std::nullopt;
+    return found->levels.value_or(levelSettings_);
+}
+
+void StreamHub::applyLevelSettings() {
+    const std::lock_guard order(applying_);
+    std::vector<std::pair<std::string, SheetLevels*>> known; // they live as long as the hub
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [sheet, levels] : levels_)
+            known.emplace_back(sheet, levels.get());
+    }
+    for (const auto& [sheet, levels] : known)
+        if (const auto settings = settingsOf(sheet)) levels->setSettings(*settings);
 }
 
 SheetLevels& StreamHub::levels(const std::string& sheet) {

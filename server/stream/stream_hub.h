@@ -63,7 +63,7 @@ class StreamClient;
 /// that stream happen inside next(), so a client that reads slowly delays only itself.
 class StreamHub {
 public:
-    /// \param levels  of every sheet until it is given other ones
+    /// \param levels  of every sheet whose workbook says nothing of them
     StreamHub(engine::Engine& engine, TileService& tiles, const LevelSettings& levels = {});
     ~StreamHub();
     StreamHub(const StreamHub&) = delete;
@@ -85,7 +85,8 @@ public:
     [[nodiscard]] StreamStatistics statistics() const;
     /// Of the open streams of this sheet; nothing before the first frame.
     [[nodiscard]] std::optional<FrameTiming> lastFrame(const std::string& sheet) const;
-    /// Levels of detail of a sheet; made at the first call. Throws NotFound if the sheet does not exist.
+    /// Levels of detail of a sheet; made at the first call. Its settings follow the workbook. Throws NotFound
+    /// if the sheet does not exist.
     [[nodiscard]] SheetLevels& levels(const std::string& sheet);
     /// The newest view of the sheet among its pages; nothing before a page has sent one.
     [[nodiscard]] std::optional<ClientView> newestView(const std::string& sheet) const;
@@ -95,14 +96,18 @@ private:
     /// Called with the lock held.
     [[nodiscard]] SheetLevels& levelsOf(const std::string& sheet);
     void levelsChanged(const std::string& sheet);
+    /// As the workbook's newest snapshot has them.
+    void applyLevelSettings();
+    [[nodiscard]] std::optional<LevelSettings> settingsOf(const std::string& sheet) const;
 
     engine::Engine& engine_;
     TileService& tiles_;
     std::uint64_t listener_ = 0;
     mutable std::mutex mutex_;
     bool stopping_ = false;
-    StreamStatistics closed_; ///< sums over streams that are gone
-    LevelSettings levelSettings_;
+    StreamStatistics closed_;     ///< sums over streams that are gone
+    LevelSettings levelSettings_; ///< where the workbook has none
+    std::mutex applying_;         ///< so that an older snapshot never overtakes a newer one
     std::unordered_map<std::string, std::unique_ptr<SheetLevels>> levels_; ///< by sheet
     std::unordered_map<std::string, std::shared_ptr<StreamClient>> clients_;
 };

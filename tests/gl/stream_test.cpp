@@ -214,6 +214,24 @@ TEST_F(Stream, TheCountRuleLowersAllCellsAndGoesBackWithFewer) {
     EXPECT_EQ(two.tiles.back().at("level"), 0);
 }
 
+TEST_F(Stream, ThePolicyFollowsTheWorkbookAndItsUndo) {
+    openBalls(2);
+    const auto id = hub_->open("Sheet1");
+    expectFinalLevels(untilRest(id, view(2, 200)), 0);
+    LevelSettings one;
+    one.policy = LevelPolicy::Count;
+    one.datasets = 1;
+    engine_->apply(sheet::SetLevels{"Sheet1", one});
+    EXPECT_EQ(untilRest(id).tiles.back().at("level"), 1); // no new view: the edit alone brings it about
+    EXPECT_TRUE(engine_->undo());
+    EXPECT_EQ(untilRest(id).tiles.back().at("level"), 0);
+    EXPECT_EQ(hub_->levels("Sheet1").settings(), LevelSettings{});
+    // A sheet that is first asked for after the edit has it from the workbook as well.
+    engine_->apply(sheet::AddSheet{"Second"});
+    engine_->apply(sheet::SetLevels{"Second", one});
+    EXPECT_EQ(hub_->levels("Second").settings(), one);
+}
+
 TEST_F(Stream, AFrameTimeThatCannotBeMetLowersAllCellsToTheCoarsest) {
     openBalls(2);
     LevelSettings settings;

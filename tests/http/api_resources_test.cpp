@@ -128,6 +128,13 @@ TEST_F(ApiResources, ProblemsNameTheField) {
         {"POST", "/api/v1/datasets", R"({"files": "a"})", 400, "files"},
         {"POST", "/api/v1/datasets", R"({"files": ["a"], "other": 1})", 400, "other"},
         {"PATCH", kSheet, R"({"columns": 0})", 400, "columns"},
+        {"PATCH", kSheet + "/resolution", R"({"policy": "steep"})", 400, "policy"},
+        {"PATCH", kSheet + "/resolution", R"({"policy": 3})", 400, "policy"},
+        {"PATCH", kSheet + "/resolution", R"({"policy": null, "frame_ms": 5})", 400, "policy"},
+        {"PATCH", kSheet + "/resolution", R"({"frame_ms": 0})", 400, "frame_ms"},
+        {"PATCH", kSheet + "/resolution", R"({"datasets": 0})", 400, "datasets"},
+        {"PATCH", kSheet + "/resolution", R"({"bytes": 1e30})", 400, "bytes"},
+        {"PATCH", kSheet + "/resolution", R"({"level": 1})", 400, "level"},
         {"POST", "/api/v1/streams/none", R"({"ack": -1})", 400, "ack"},
     };
     for (const auto& bad : cases) {
@@ -295,6 +302,40 @@ TEST_F(ApiResources, WorkbookRoundTripAndLostEdits) {
     ASSERT_TRUE(program_->waitForImports());
     for (const auto& dataset : getJson("/api/v1/datasets").at("datasets"))
         EXPECT_EQ(dataset.at("state"), "ready") << dataset.dump();
+}
+
+TEST_F(ApiResources, LevelPolicyBelongsToTheWorkbook) {
+    const auto inUse = [] { return getJson(kSheet + "/resolution"); };
+    const auto inWorkbook = [] {
+        return getJson("/api/v1/workbook").at("sheets").at(0).value("levels", json());
+    };
+    EXPECT_EQ(inUse().at("policy"), "focus");
+    EXPECT_EQ(inUse().at("from"), "server");
+    EXPECT_TRUE(inWorkbook().is_null());
+
+    const auto set = program_->ask("PATCH", kSheet + "/resolution", R"({"policy": "time", "frame_ms": 250})");
+    ASSERT_EQ(set.status, 200) << set.body;
+    EXPECT_EQ(set.json().at("from"), "workbook");
+    EXPECT_EQ(inWorkbook().at("policy"), "time");
+    EXPECT_EQ(inWorkbook().at("frame_ms"), 250);
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/resolution", R"({"policy": "slope"})").status, 200);
+    EXPECT_EQ(inUse().at("frame_ms"), 250) << "members that are left out stay";
+
+    const auto document = program_->get("/api/v1/workbook").body; // as a file would keep it
+    EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
+    EXPECT_EQ(inUse().at("policy"), "time");
+    EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
+    EXPECT_EQ(inUse().at("policy"), "focus");
+    EXPECT_EQ(inUse().at("from"), "server");
+    EXPECT_EQ(program_->ask("PUT", "/api/v1/workbook", document).status, 200);
+    EXPECT_EQ(inUse().at("policy"), "slope") << "a workbook that is opened brings its policy";
+    EXPECT_EQ(getJson(kSheet + "/timings").at("policy"), "slope");
+
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/resolution", R"({"policy": null})").json().at("from"),
+              "server");
+    EXPECT_EQ(inUse().at("policy"), "focus");
+    EXPECT_TRUE(inWorkbook().is_null());
+    ASSERT_TRUE(program_->waitForImports());
 }
 
 TEST_F(ApiResources, StreamGivesTilesAndTakesViews) {

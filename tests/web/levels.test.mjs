@@ -87,6 +87,20 @@ test("a frame time that no machine keeps makes all cells coarse; one click goes 
     await waitUntil(page, () => Object.values(window.voxsheet.store.get().tiles).every((tile) => !tile.painted || (tile.level === 0 && tile.final)));
 });
 
+test("undo takes a policy back, and the panel goes back to the server's own", async () => {
+    await choosePolicy("slope");
+    const reset = page.getByRole("button", { name: "Reset to the server's policy" });
+    await reset.waitFor();
+    await page.locator('[data-title-of="A1"]').click();
+    await page.keyboard.press("Control+z");
+    await page.locator('[data-policy="focus"]').waitFor();
+    await reset.click();
+    await reset.waitFor({ state: "detached" });
+    const { json } = await api("api/v1/workbook", "GET");
+    assert.equal(json.sheets[0].levels, undefined);
+    await choosePolicy("focus", 60_000);
+});
+
 test("a level is pinned in the inspector, shows on the badge, and is released by the badge's menu", async () => {
     await page.locator('[data-title-of="B1"]').click();
     await page.locator('[data-scope="cell"]').click();

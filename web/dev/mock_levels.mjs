@@ -7,15 +7,20 @@ export class Levels {
     settings = {
         policy: "focus", frame_ms: 1000, frames_per_second: 1, datasets: 25, bytes: 1_073_741_824, up_fraction: 0.8,
         policies: ["off", "focus", "slope", "slope-first", "time", "rate", "count", "bytes"],
+        from: "server",
     };
 
     /** The error's field and sentence, or null when the settings were taken. */
     change(patch) {
+        if (patch.policy === null) {
+            this.settings = new Levels().settings;
+            return null;
+        }
         for (const [name, value] of Object.entries(patch)) {
-            if (!(name in this.settings) || name === "policies") return { field: name, detail: `There is no member ${name}; leave it out.` };
+            if (!(name in this.settings) || name === "policies" || name === "from") return { field: name, detail: `There is no member ${name}; leave it out.` };
             if (name === "policy" ? !this.settings.policies.includes(value) : !(value > 0)) return { field: name, detail: `${name} cannot be ${value}; give a value above 0, or one of the policies.` };
         }
-        Object.assign(this.settings, patch);
+        Object.assign(this.settings, patch, { from: "workbook" });
         return null;
     }
 

@@ -2,6 +2,7 @@
 #include "http/resource/api_context.h"
 #include "http/resource/stream_update.h"
 #include "http/route/json_answer.h"
+#include "sheet/level_settings_json.h"
 #include "stream/time_measurement.h"
 
 #include <algorithm>
@@ -38,16 +39,6 @@ json pointJson(const stream::TimingPoint& point) {
     return out;
 }
 
-json settingsJson(const LevelSettings& settings) {
-    return {{"policy", levelPolicyName(settings.policy)},
-            {"frame_ms", settings.frameMs},
-            {"frames_per_second", settings.framesPerSecond},
-            {"datasets", settings.datasets},
-            {"bytes", settings.bytes},
-            {"up_fraction", settings.upFraction},
-            {"policies", levelPolicyNames()}};
-}
-
 double numberMember(const json& body, const char* name, double fallback) {
     const auto found = body.find(name);
     if (found == body.end()) return fallback;
@@ -56,21 +47,17 @@ double numberMember(const json& body, const char* name, double fallback) {
     return found->get<double>();
 }
 
-LevelSettings settingsFromJson(const json& body, LevelSettings settings) {
-    allowMembers(body, {"policy", "frame_ms", "frames_per_second", "datasets", "bytes", "up_fraction"});
-    if (body.contains("policy")) settings.policy = levelPolicyFromName(requireString(body, "policy"));
-    settings.frameMs = numberMember(body, "frame_ms", settings.frameMs);
-    settings.framesPerSecond = numberMember(body, "frames_per_second", settings.framesPerSecond);
-    if (body.contains("datasets"))
-        settings.datasets = static_cast<int>(integerIn(body, "datasets", 1, sheet::kMaxCells));
-    if (body.contains("bytes"))
-        settings.bytes = static_cast<std::uint64_t>(integerIn(body, "bytes", 1, std::int64_t{1} << 60));
-    settings.upFraction = numberMember(body, "up_fraction", settings.upFraction);
-    return settings;
-}
-
 std::string sheetName(const ApiContext& context, const Request& request) {
     return sheet::sheetNamed(*context.engine.snapshot(), request.param("sheet")).name;
+}
+
+/// The settings in use, and whose they are.
+json resolutionJson(const ApiContext& context, const std::string& sheet) {
+    const auto workbook = context.engine.snapshot();
+    json out = sheet::levelSettingsToJson(context.hub.levels(sheet).settings());
+    out["policies"] = levelPolicyNames();
+    out["from"] = sheet::sheetNamed(*workbook, sheet).levels ? "workbook" : "server";
+    return out;
 }
 
 json cellsJson(const std::vector<stream::CellLevel>& cells) {
@@ -110,7 +97,7 @@ json timingsJson(const ApiContext& context, const std::string& sheet) {
             {"level", timings.level},
             {"levels", cellsJson(timings.cells)},
             {"policy", levelPolicyName(timings.settings.policy)},
-            {"settings", settingsJson(timings.settings)},
+            {"settings", resolutionJson(context, sheet)},
             {"reason", timings.reason},
             {"frame_ms", last ? json(last->frameMs) : json()},
             {"frame_tiles", last ? json(last->tiles) : json()},
@@ -159,10 +146,26 @@ Response measure(const ApiContext& context, const Request& request) {
     return jsonAnswer(answer);
 }
 
+/// `{"policy": null}` asks for the server's own settings again.
+bool asksForTheServers(const json& body) {
+    const auto policy = body.find("policy");
+    if (policy == body.end() || !policy->is_null()) return false;
+    if (body.size() > 1)
+        throw InvalidInput("policy", "null goes back to what the server was started with, limits included",
+                           "leave the other members out")
+            .withField("policy");
+    return true;
+}
+
 Response patchSettings(const ApiContext& context, const Request& request) {
-    auto& levels = context.hub.levels(sheetName(context, request));
-    levels.setSettings(settingsFromJson(jsonBody(request), levels.settings()));
-    return jsonAnswer(settingsJson(levels.settings()));
+    const auto name = sheetName(context, request);
+    const auto body = jsonBody(request);
+    sheet::SetLevels command{name, std::nullopt};
+    if (!asksForTheServers(body))
+        command.levels =
+            sheet::levelSettingsFromJson(sheet::JsonReader(body), context.hub.levels(name).settings());
+    context.engine.apply(command);
+    return jsonAnswer(resolutionJson(context, name));
 }
 
 } // namespace
@@ -192,25 +195,27 @@ void addTimingRoutes(Router& router, const ApiContext& context) {
                 .bodyBudgetBytes = kBodyBytes,
                 .pool = Pool::Render,
                 .answerDoc = "as GET, and measured: {n, frames, stopped_early, warning}"});
-    router.add({.method = "GET",
-                .pattern = "/api/v1/sheets/{sheet}/resolution",
-                .handler =
-                    [&context](Request& request) {
-                        return jsonAnswer(
-                            settingsJson(context.hub.levels(sheetName(context, request)).settings()));
-                    },
-                .summary = "How the levels of detail of this sheet's cells are chosen",
-                .answerDoc =
-                    "{policy, frame_ms, frames_per_second, datasets, bytes, up_fraction, policies: [name]}"});
+    router.add(
+        {.method = "GET",
+         .pattern = "/api/v1/sheets/{sheet}/resolution",
+         .handler =
+             [&context](Request& request) {
+                 return jsonAnswer(resolutionJson(context, sheetName(context, request)));
+             },
+         .summary = "How the levels of detail of this sheet's cells are chosen",
+         .answerDoc =
+             "{policy, frame_ms, frames_per_second, datasets, bytes, up_fraction, policies: [name], from: "
+             "\"workbook\" | \"server\" (what it was started with)}"});
     router.add(
         {.method = "PATCH",
          .pattern = "/api/v1/sheets/{sheet}/resolution",
          .handler = [&context](Request& request) { return patchSettings(context, request); },
-         .summary = "Chooses the policy of levels of detail, and its limits, while running; not a part "
-                    "of the workbook",
+         .summary =
+             "Chooses the policy of levels of detail, and its limits: a part of the workbook, and one undo "
+             "step. {policy: null} goes back to what the server was started with",
          .bodyType = "application/json",
          .bodyDoc = "{policy?: \"off\" | \"focus\" | \"slope\" | \"slope-first\" | \"time\" | \"rate\" | "
-                    "\"count\" | \"bytes\", frame_ms?, frames_per_second?, datasets?, bytes?, "
+                    "\"count\" | \"bytes\" | null, frame_ms?, frames_per_second?, datasets?, bytes?, "
                     "up_fraction?}",
          .bodyBudgetBytes = kBodyBytes,
          .answerDoc = "as GET"});

@@ -27,7 +27,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
         {"stages", {"gpu", "residency", "volume"}},
         {"techniques", {"stages"}},
         {"frame", {"techniques", "resolution"}},
-        {"sheet", {"volume"}},
+        {"sheet", {"volume", "resolution"}},
         {"import", {"volume", "store"}},
         {"engine", {"sheet", "frame", "resolution", "store", "import", "configs"}},
         {"stream", {"engine"}},

@@ -304,6 +304,21 @@ TEST(Sheets, AddRenameDelete) {
     EXPECT_THROW((void)after(filledWorkbook(1, 1), DeleteSheet{"Sheet1"}), Conflict);
 }
 
+TEST(Levels, AreSetPerSheetAndGivenBack) {
+    Workbook book = after(filledWorkbook(1, 1), AddSheet{""});
+    const LevelSettings slope{.policy = LevelPolicy::Slope};
+    book = after(book, SetLevels{"sheet2", slope});
+    EXPECT_EQ(book.sheets[1].levels, slope);
+    EXPECT_FALSE(book.sheets[0].levels);
+    EXPECT_FALSE(after(book, SetLevels{"Sheet2", std::nullopt}).sheets[1].levels);
+    EXPECT_THROW((void)after(book, SetLevels{"Sheet9", slope}), NotFound);
+    EXPECT_EQ(caught<InvalidInput>([&] {
+                  (void)after(book, SetLevels{"Sheet1", LevelSettings{.frameMs = -1}});
+              }).field(),
+              "frame_ms");
+    EXPECT_EQ(commandLabel(SetLevels{"Sheet1", slope}), "Levels of detail: slope");
+}
+
 TEST(Commands, AnEditLeavesTheOldSnapshotAlone) {
     const Workbook start = filledWorkbook(2, 2);
     const Workbook copy = start;

@@ -20,6 +20,7 @@ Workbook richWorkbook() {
     Sheet& sheet = book.sheets[0];
     sheet.title = "first";
     sheet.autoLayout = false;
+    sheet.levels = LevelSettings{LevelPolicy::Rate, 250.0, 1.0 / 3.0, 9, std::uint64_t{3} << 40, 0.6};
     sheet.style = {{"camera.target", glm::dvec3(0.1, -1.0 / 3.0, 1e-300)},
                    {"transfer.opacity", OpacityStops{{0.0, 0.0}, {0.1, 1.0 / 7.0}, {1.0, 1.0}}},
                    {"transfer.points", ColourStops{{0.0, Colour{{1, 2, 3, 255}}}}}};
@@ -65,6 +66,16 @@ TEST(WorkbookJson, LayersAndTheirWeightsSurviveOnEveryStyleLayer) {
     EXPECT_EQ(resolveStyle(testKeys(), read.sheets[0], {1, 0}).style.layers.volumes, "");
 }
 
+TEST(WorkbookJson, LevelsThatSayLittleHaveTheDefaultsOtherwise) {
+    const auto read = parseWorkbook(
+        R"({"voxsheet":1,"sheets":[{"name":"S","columns":1,"rows":1,"levels":{"policy":"slope"}}]})",
+        testKeys());
+    EXPECT_EQ(read.sheets[0].levels, (LevelSettings{.policy = LevelPolicy::Slope}));
+    EXPECT_FALSE(parseWorkbook(R"({"voxsheet":1,"sheets":[{"name":"S","columns":1,"rows":1}]})", testKeys())
+                     .sheets[0]
+                     .levels);
+}
+
 TEST(WorkbookJson, EveryKeysDefaultSurvives) {
     Workbook book = filledWorkbook(1, 1);
     for (const KeySpec& key : testKeys().keys())
@@ -88,6 +99,14 @@ TEST(WorkbookJson, ErrorsNameTheMember) {
     EXPECT_EQ(fieldOf(document(R"("cells":{"A1":{"source":"d1"},"a1":{"source":"d1"}})")),
               "sheets[0].cells.a1");
     EXPECT_EQ(fieldOf(document(R"("style":[])")), "sheets[0].style");
+    EXPECT_EQ(fieldOf(document(R"("levels":"slope")")), "sheets[0].levels");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"policy":"steep"})")), "sheets[0].levels.policy");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"frame_ms":0})")), "sheets[0].levels.frame_ms");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"frame_ms":"fast"})")), "sheets[0].levels.frame_ms");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"datasets":1.5})")), "sheets[0].levels.datasets");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"bytes":-1})")), "sheets[0].levels.bytes");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"up_fraction":1.01})")), "sheets[0].levels.up_fraction");
+    EXPECT_EQ(fieldOf(document(R"("levels":{"frame":1})")), "sheets[0].levels.frame");
     EXPECT_EQ(fieldOf(document(R"("rowHeaders":{"3":{"title":"x"}})")), "sheets[0].rowHeaders.3");
     EXPECT_EQ(fieldOf(document(R"("columnHeaders":{"A":{"title":"x\u0000"}})")),
               "sheets[0].columnHeaders.A.title");

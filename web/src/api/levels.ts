@@ -23,7 +23,11 @@ export interface LevelSettings {
     bytes: number;
     up_fraction: number;
     policies: string[];
+    /** Set in the workbook, or what the server was started with. */
+    from: "workbook" | "server";
 }
+
+export type LevelPatch = Partial<Omit<LevelSettings, "policy" | "policies" | "from">> & { policy?: string | null };
 
 export interface Timings {
     n: number;
@@ -57,6 +61,7 @@ export async function measureTimings(sheet: string): Promise<Timings> {
     return (await sendJson<Timings>("POST", path(sheet, "timings"), {}))!;
 }
 
-export async function setResolution(sheet: string, patch: Partial<LevelSettings>): Promise<LevelSettings> {
+/** `{ policy: null }` goes back to the server's own settings. */
+export async function setResolution(sheet: string, patch: LevelPatch): Promise<LevelSettings> {
     return (await sendJson<LevelSettings>("PATCH", path(sheet, "resolution"), patch))!;
 }

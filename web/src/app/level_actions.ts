@@ -1,5 +1,5 @@
 // The panel of levels and timings, the policy, and pinned levels.
-import { getTimings, measureTimings, setResolution, type LevelSettings } from "../api/levels";
+import { getTimings, measureTimings, setResolution, type LevelPatch } from "../api/levels";
 import type { AppStore } from "../state/app_state";
 import { currentSheet } from "../state/book";
 import type { Notices } from "./notices";
@@ -30,7 +30,7 @@ export class LevelActions {
         if (this.store.get().levels.open) void this.timings.request();
     }
 
-    async choose(patch: Partial<LevelSettings>): Promise<void> {
+    async choose(patch: LevelPatch): Promise<void> {
         const sheet = this.sheet();
         if (sheet === undefined) return;
         await this.notices.attempt(() => setResolution(sheet, patch));

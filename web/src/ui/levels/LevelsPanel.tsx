@@ -47,6 +47,17 @@ function OneClick({ settings }: { settings: LevelSettings }) {
     );
 }
 
+/** The workbook's own policy can be given up for the one that the server was started with. */
+function ServersOwn({ settings }: { settings: LevelSettings }) {
+    const app = useApp();
+    if (settings.from === "server") return null;
+    return (
+        <button type="button" class="text-button" title="The policy is kept in the workbook; without one, the server's --dr holds" onClick={() => void app.levels.choose({ policy: null })}>
+            Reset to the server's policy
+        </button>
+    );
+}
+
 export function LevelsPanel() {
     const app = useApp();
     const { open, timings, measuring } = useSelect((state) => state.levels);
@@ -70,6 +81,7 @@ export function LevelsPanel() {
                     <div class="levels-side">
                         <PolicyChooser settings={timings.settings} />
                         <OneClick settings={timings.settings} />
+                        <ServersOwn settings={timings.settings} />
                         <p class="levels-reason" data-policy={timings.policy}>
                             {timings.shown} cells on show, coarsest level {timings.level}: {timings.reason}. Times are for tiles of 256 × 256 pixels.
                         </p>
