@@ -4,9 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace voxsheet::engine {
 
 namespace {
+
+using nlohmann::json;
+
+} // namespace
 
 const char* scaleName(ValueScale scale) {
     switch (scale) {
@@ -20,7 +26,12 @@ const char* scaleName(ValueScale scale) {
     return "linear";
 }
 
-using nlohmann::json;
+bool hasGaps(const FieldMeta& field) {
+    return std::any_of(field.steps.begin(), field.steps.end(),
+                       [](const FieldStep& step) { return step.statistics.nanCount > 0; });
+}
+
+namespace {
 
 json stopsJson(const TransferFunction& function) {
     json stops = json::array();
@@ -39,10 +50,15 @@ json ticksJson(const TransferFunction& function) {
     return ticks;
 }
 
+json colourJson(const glm::dvec4& colour) { return {colour.x, colour.y, colour.z, colour.w}; }
+
 /// What a bar of any volume has.
 json barJson(const ResolvedTransfer& transfer, const FieldMeta& field) {
     const TransferFunction& function = transfer.function;
-    return {{"stops", stopsJson(function)},
+    return {{"nan", hasGaps(field) ? colourJson(function.nan) : json(nullptr)},
+            {"below", function.hasBelow ? colourJson(function.below) : json(nullptr)},
+            {"above", function.hasAbove ? colourJson(function.above) : json(nullptr)},
+            {"stops", stopsJson(function)},
             {"low", transferValue(function, 0.0)},
             {"high", function.high},
             {"scale", scaleName(function.scale)},

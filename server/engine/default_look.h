@@ -43,6 +43,14 @@ struct ValueSummary {
 
 inline constexpr double kTargetDepth = 1.2; ///< mean optical depth through the box, see rule 4
 
+/// Of finite values; min == max for a constant.
+struct ValueExtremes {
+    double min = 0.0;
+    double max = 0.0;
+
+    bool operator==(const ValueExtremes&) const = default;
+};
+
 struct ValueWindow {
     double low = 0.0;
     double high = 1.0; ///< > low

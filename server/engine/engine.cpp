@@ -4,6 +4,7 @@
 #include "engine/colour_bar.h"
 #include "engine/colour_map.h"
 #include "engine/engine_implementation.h"
+#include "engine/sample_reader.h"
 #include "engine/sheet_image.h"
 #include "sheet/dataset_names.h"
 
@@ -229,6 +230,25 @@ nlohmann::json Engine::colourBar(const std::string& sheetName, const sheet::Addr
                        "wait for its import, or see the cell's error");
     }
     return describeColourBar(implementation_->tiles.look(*now, index, cell, view, contents));
+}
+
+std::optional<ValueExtremes> Engine::valueRange(const std::string& sheetName, const sheet::Address& cell,
+                                                const View& view, RangeOver over,
+                                                glm::ivec2 sizePixels) const {
+    const sheet::Snapshot now = snapshot();
+    const std::size_t index = implementation_->indexOf(*now, sheetName);
+    const auto contents = implementation_->contents(*now);
+    const CellContent& content = contentAt(*contents, {index, cell});
+    TileQuality quality;
+    quality.sizePixels = sizePixels;
+    const PreparedTile tile = implementation_->tiles.prepare(*now, index, cell, view, quality, contents);
+    if (content.state != CellState::Ready || !tile.spec) {
+        throw NotFound("range of cell " + sheet::addressName(cell), "the cell shows no volume",
+                       "wait for its import, or see the cell's error");
+    }
+    if (over == RangeOver::Visible) return implementation_->probes.visible(*tile.spec, *content.meta);
+    const FieldMeta& field = content.meta->fields.at(static_cast<std::size_t>(tile.spec->field));
+    return extremesOf(field, over == RangeOver::Data ? std::optional(tile.spec->step) : std::nullopt);
 }
 
 nlohmann::json Engine::colourMaps() const { return describeColourMaps(ColourMapTable::embedded()); }

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "engine/cell_state.h"
 #include "engine/dataset_state.h"
+#include "engine/default_look.h"
 #include "engine/level_needs.h"
 #include "frame/render_thread.h"
 #include "residency/host_cache_state.h"
@@ -124,6 +125,10 @@ struct PreparedTile {
     int colourVolumeLevels = 1;   ///< of the volume that colours isosurfaces, if there is one
     std::vector<int> layerLevels; ///< of the volumes blended with the cell's own
 };
+
+/// Which of a cell's values: all of the shown time step, of all steps, or those within the picture (as
+/// visibleRange()).
+enum class RangeOver { Data, Time, Visible };
 
 struct ProbeValue {
     sheet::Address cell;
@@ -246,6 +251,12 @@ public:
     /// The transfer function as drawn: colour-bar stops, range, unit, scale (JSON as in the API).
     [[nodiscard]] nlohmann::json colourBar(const std::string& sheetName, const sheet::Address& cell,
                                            const View& view) const;
+    /// Smallest and largest finite value of what a cell shows; empty if there is none. Throws NotFound if the
+    /// cell shows no volume.
+    /// \param sizePixels  of the picture; it decides what of it is visible
+    [[nodiscard]] std::optional<ValueExtremes> valueRange(const std::string& sheetName,
+                                                          const sheet::Address& cell, const View& view,
+                                                          RangeOver over, glm::ivec2 sizePixels) const;
     [[nodiscard]] nlohmann::json colourMaps() const;
     /// The looks that the program carries inside itself.
     [[nodiscard]] const std::vector<sheet::StylePreset>& stylePresets() const;

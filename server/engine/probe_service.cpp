@@ -59,6 +59,12 @@ std::optional<PixelHit> ProbeService::underPixel(const TileSpec& tile, const Dat
     return hit;
 }
 
+std::optional<ValueExtremes> ProbeService::visible(const TileSpec& tile, const DatasetMeta& meta) {
+    std::optional<ObjectSamples> object;
+    if (tile.clip.object) object = objectOf(*tile.clip.object);
+    return visibleRange(tile, meta, *volumes_, object ? &*object : nullptr);
+}
+
 void ProbeService::refine(PixelHit& hit, const TileSpec& tile, const DatasetMeta& meta, const Ray& ray,
                           int level) const {
     const glm::dmat4 indexFromWorld = glm::inverse(placedGrid(meta.grid, tile.periodic).worldFromIndex);

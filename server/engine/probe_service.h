@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/pixel_probe.h"
 #include "engine/tile_maker.h"
+#include "engine/visible_range.h"
 #include "volume/clip_shape_provider.h"
 
 #include <list>
@@ -28,6 +29,9 @@ public:
     /// \param opacity  as pixelHit()
     [[nodiscard]] std::optional<PixelHit> underPixel(const TileSpec& tile, const DatasetMeta& meta,
                                                      glm::dvec2 pixel, std::optional<double> opacity);
+
+    /// As visibleRange().
+    [[nodiscard]] std::optional<ValueExtremes> visible(const TileSpec& tile, const DatasetMeta& meta);
 
 private:
     static constexpr long kLevelSamples = 2'500'000; ///< of a level that is kept for rays

@@ -48,18 +48,22 @@ ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& me
     const glm::ivec3 dims = levelDims(meta.grid.dims, level);
     const std::vector<double> values = readValues(volumes, meta, {meta.key, field, step, level}, 0, dims.z);
     std::vector<float> sorted(values.begin(), values.end());
-    double min = std::numeric_limits<double>::infinity();
-    double max = -min;
-    for (const FieldStep& each : meta.fields.at(static_cast<std::size_t>(field)).steps) {
-        if (each.statistics.finiteCount == 0) continue;
-        min = std::min(min, each.statistics.min);
-        max = std::max(max, each.statistics.max);
-    }
-    if (min > max) min = max = 0.0;
-    ValueSummary summary = summariseValues(sorted, min, max);
     const FieldMeta& described = meta.fields.at(static_cast<std::size_t>(field));
+    const ValueExtremes all = extremesOf(described).value_or(ValueExtremes{});
+    ValueSummary summary = summariseValues(sorted, all.min, all.max);
     summary.integers = !isFloat(described.storedType) && described.valueScale == 1.0;
     return summary;
+}
+
+std::optional<ValueExtremes> extremesOf(const FieldMeta& field, std::optional<int> step) {
+    std::optional<ValueExtremes> all;
+    for (std::size_t i = 0; i < field.steps.size(); ++i) {
+        const ValueStatistics& each = field.steps[i].statistics;
+        if (each.finiteCount == 0 || (step && static_cast<std::size_t>(*step) != i)) continue;
+        all = all ? ValueExtremes{std::min(all->min, each.min), std::max(all->max, each.max)}
+                  : ValueExtremes{each.min, each.max};
+    }
+    return all;
 }
 
 std::optional<PointSample> samplePoint(const VolumeProvider& volumes, const DatasetMeta& meta, int field,

@@ -23,6 +23,9 @@ inline constexpr long kSummarySamples = 300'000;
 [[nodiscard]] ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& meta, int field,
                                           int step);
 
+/// Of one step, or of all. Empty if no value is finite.
+[[nodiscard]] std::optional<ValueExtremes> extremesOf(const FieldMeta& field, std::optional<int> step = {});
+
 /// Level-0 values at single points, read slice by slice as they are needed, and kept. Keeps references:
 /// outlived by its arguments.
 class Level0Reader {

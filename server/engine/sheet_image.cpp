@@ -277,19 +277,41 @@ private:
             canvas.text({right - width - font / 2, y}, TextAlign::Right, tick.label, font, colours.text,
                         area.size().x / 3);
         }
+        drawEnds(canvas, function, {{right - width, top}, {right, top + height}}, colours.quiet);
         if (!by) drawIsovalues(canvas, *cell.look, {{right - width, top}, {right, top + height}}, colours);
         const FieldMeta& field =
             by ? by->meta->fields.at(static_cast<std::size_t>(by->shown.field))
                : cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
         std::string caption = field.quantity;
         if (!field.unit.empty()) caption += (caption.empty() ? "" : " / ") + unitText(field.unit);
+        if (function.scale != ValueScale::Linear)
+            caption += std::string(caption.empty() ? "" : ", ") + scaleName(function.scale);
         if (cell.look->sharedRange && !by) caption += caption.empty() ? "shared" : ", shared";
-        canvas.text({right, top - font}, TextAlign::Right, caption, font, colours.quiet,
+        if (hasGaps(field) && function.nan.w > 0.0) {
+            const int bottom = top + height + 2 * width;
+            canvas.fill({{right - width, bottom}, {right, bottom + width}}, {glm::vec3(function.nan), 1.0F});
+            canvas.text({right - width - font / 2, bottom + width / 2}, TextAlign::Right, "no value", font,
+                        colours.text, area.size().x / 2);
+        }
+        const int captionAt = top - font - (function.hasAbove ? width : 0);
+        canvas.text({right, captionAt}, TextAlign::Right, caption, font, colours.quiet,
                     area.size().x * 3 / 4);
         if (!cell.look->layers.empty()) {
-            canvas.text({right, top - font * 5 / 2}, TextAlign::Right, fusedText(*cell.look), font,
+            canvas.text({right, captionAt - font * 3 / 2}, TextAlign::Right, fusedText(*cell.look), font,
                         colours.text, area.size().x * 3 / 4);
         }
+    }
+
+    /// Beyond the bar's ends, where they are set: the colours of values outside the range.
+    static void drawEnds(Canvas& canvas, const TransferFunction& function, const PixelRect& bar,
+                         const glm::vec4& edge) {
+        const int height = bar.size().x;
+        const auto block = [&](int top, const glm::dvec4& colour) {
+            canvas.fill({{bar.low.x - 1, top - 1}, {bar.high.x + 1, top + height + 1}}, edge);
+            canvas.fill({{bar.low.x, top}, {bar.high.x, top + height}}, {glm::vec3(colour), 1.0F});
+        };
+        if (function.hasAbove) block(bar.low.y - height - 1, function.above);
+        if (function.hasBelow) block(bar.high.y + 1, function.below);
     }
 
     /// A line across the bar at each surface's value, and its colour beside it.

@@ -19,6 +19,11 @@ const char* codeOf(const InvalidInput& error) {
     return "#TYPE!";
 }
 
+SharedQuantity quantityOf(const DatasetMeta& meta, const FieldAndStep& shown) {
+    const FieldMeta& field = meta.fields.at(static_cast<std::size_t>(shown.field));
+    return {field.quantity, field.unit};
+}
+
 bool isCell(const sheet::VolumeName& name, const NamingCell& cell) {
     const auto* address = std::get_if<sheet::SheetAddress>(&name);
     if (address == nullptr || address->cell != cell.cell) return false;
@@ -164,26 +169,34 @@ TileMaker::sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex
     const sheet::Sheet& sheet = workbook.sheets[sheetIndex];
     const bool shares =
         sheet::resolveStyle(keys_, sheet, asking).style.range.mode == sheet::RangeMode::Shared;
+    const SharedQuantity quantity = quantityOf(*own.meta, own.shown);
     if (shares) {
         const std::lock_guard lock(mutex_);
         if (shared_.version == workbook.version && shared_.sheetIndex == sheetIndex &&
             shared_.contents == contents) {
-            return shared_.summary;
+            const auto found = shared_.summaries.find(quantity);
+            if (found != shared_.summaries.end()) return found->second;
+        } else {
+            shared_ = {workbook.version, sheetIndex, contents, {}};
         }
     }
-    std::vector<ValueSummary> summaries = sharingSummaries(workbook, sheetIndex, *contents);
+    std::vector<ValueSummary> summaries = sharingSummaries(workbook, sheetIndex, *contents, quantity);
     // Only the page's view or the request made it share: it joins the others without moving their ranges.
     if (!shares) summaries.push_back(*cache_.summary(*own.meta, own.shown.field, own.shown.step));
     auto merged = std::make_shared<const ValueSummary>(mergeSummaries(summaries));
     if (shares) {
         const std::lock_guard lock(mutex_);
-        shared_ = {workbook.version, sheetIndex, contents, merged};
+        if (shared_.version == workbook.version && shared_.sheetIndex == sheetIndex &&
+            shared_.contents == contents) {
+            shared_.summaries[quantity] = merged;
+        }
     }
     return merged;
 }
 
 std::vector<ValueSummary> TileMaker::sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex,
-                                                      const CellContents& contents) {
+                                                      const CellContents& contents,
+                                                      const SharedQuantity& quantity) {
     const sheet::Sheet& sheet = workbook.sheets[sheetIndex];
     std::vector<ValueSummary> summaries;
     for (const auto& [address, cell] : sheet.cells) {
@@ -193,6 +206,7 @@ std::vector<ValueSummary> TileMaker::sharingSummaries(const sheet::Workbook& wor
         if (other.style.range.mode != sheet::RangeMode::Shared) continue;
         try {
             const FieldAndStep shown = chooseField(other.style.field, other.style.timeStep, *content.meta);
+            if (quantityOf(*content.meta, shown) != quantity) continue;
             summaries.push_back(*cache_.summary(*content.meta, shown.field, shown.step));
         } catch (const Error&) {
             continue; // That cell shows its own error; the others still share.

@@ -7,6 +7,7 @@
 #include "engine/look_cache.h"
 #include "engine/named_volumes.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -48,6 +49,14 @@ struct CellLook {
     std::optional<MissingVolume> missing; ///< a volume that the style names; without it there is no picture
 };
 
+/// Ranges are shared only by values that mean the same.
+struct SharedQuantity {
+    std::string quantity; ///< FieldMeta::quantity
+    std::string unit;
+
+    auto operator<=>(const SharedQuantity&) const = default;
+};
+
 /// What is the same for all tiles of this program.
 struct TileEnvironment {
     std::string text;              ///< device, driver, build: part of every identity
@@ -80,12 +89,15 @@ public:
     [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
 
 private:
-    /// Of all cells of the sheet whose own range.mode is shared, with `own` among them.
+    /// Of all cells of the sheet that show the same quantity in the same unit and whose own range.mode is
+    /// shared, with `own` among them.
     [[nodiscard]] std::shared_ptr<const ValueSummary>
     sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex, const sheet::Address& asking,
                   const CellLook& own, const std::shared_ptr<const CellContents>& contents);
-    [[nodiscard]] std::vector<ValueSummary>
-    sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex, const CellContents& contents);
+    [[nodiscard]] std::vector<ValueSummary> sharingSummaries(const sheet::Workbook& workbook,
+                                                             std::size_t sheetIndex,
+                                                             const CellContents& contents,
+                                                             const SharedQuantity& quantity);
     /// Without the volumes that the style names.
     [[nodiscard]] CellLook ownLook(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                    const sheet::Address& cell, const View& view,
@@ -111,7 +123,7 @@ private:
         std::uint64_t version = 0;
         std::size_t sheetIndex = 0;
         std::shared_ptr<const CellContents> contents;
-        std::shared_ptr<const ValueSummary> summary;
+        std::map<SharedQuantity, std::shared_ptr<const ValueSummary>> summaries;
     };
     std::mutex mutex_;
     SharedRange shared_;

@@ -102,7 +102,8 @@ void addRange(std::vector<KeySpec>& keys) {
         "range.mode", {"auto", "own", "shared", "fixed", "percentile", "symmetric"}, "auto", group,
         "Values that the transfer function spans: chosen from the cell's own data (auto: without a few "
         "extreme "
-        "samples, and symmetric about 0 if signed), all of the cell's own, those of all cells that share, "
+        "samples, and symmetric about 0 if signed), all of the cell's own, those of all cells of the same "
+        "quantity and unit that share, "
         "range.min to range.max, the same as percentiles, or the largest magnitude on both sides of 0."));
     keys.push_back(
         when(withNone(number("range.min", "value, or percent", -largest, largest, None{}, group,

@@ -82,6 +82,29 @@ Response colourBar(const ApiContext& context, const Request& request) {
     return jsonAnswer(context.engine.colourBar(sheet, cell, viewOf(context, request, {"stream"})));
 }
 
+engine::RangeOver rangeOver(const std::string& word) {
+    if (word == "data") return engine::RangeOver::Data;
+    if (word == "time") return engine::RangeOver::Time;
+    if (word == "visible") return engine::RangeOver::Visible;
+    throw InvalidInput("over '" + word + "'", "there is no such range", "choose data, time or visible")
+        .withField("over");
+}
+
+Response valueRange(const ApiContext& context, const Request& request) {
+    const auto workbook = context.engine.snapshot();
+    const auto sheet = sheet::sheetNamed(*workbook, request.param("sheet")).name;
+    const auto cell = sheet::parseAddress(request.param("cell"));
+    const auto& query = request.query;
+    const std::string over = query.text("over").value_or("data");
+    const glm::ivec2 size{query.integer("width", 1, 8192).value_or(512),
+                          query.integer("height", 1, 8192).value_or(512)};
+    const auto view = viewOf(context, request, {"over", "width", "height", "stream"});
+    const auto range = context.engine.valueRange(sheet, cell, view, rangeOver(over), size);
+    return jsonAnswer(nlohmann::json{{"over", over},
+                                     {"min", range ? nlohmann::json(range->min) : nlohmann::json(nullptr)},
+                                     {"max", range ? nlohmann::json(range->max) : nlohmann::json(nullptr)}});
+}
+
 } // namespace
 
 void addProbeRoutes(Router& router, const ApiContext& context) {
@@ -106,6 +129,20 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
              "{world, values: [{cell, value, interpolated, index, unit, note, hit, isovalue}]}; hit: of "
              "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
              "(nothing opaque enough), else null"});
+    router.add(
+        {.method = "GET",
+         .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/range",
+         .handler = [&context](Request& request) { return valueRange(context, request); },
+         .summary = "Smallest and largest value of what a cell shows",
+         .query = {{"over", "string",
+                    "data (the shown time step), time (all steps), or visible (samples within the picture's "
+                    "edges that clipping keeps; on a plane those next to it)"},
+                   {"width", "integer", "of the picture, for visible; 512"},
+                   {"height", "integer", "of the picture, for visible; 512"},
+                   {"stream", "string", "use the view of this stream's page"}},
+         .anyStyleKey = true,
+         .pool = Pool::Render,
+         .answerDoc = "{over, min, max}; null where no value is finite"});
     router.add({.method = "GET",
                 .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/colourbar",
                 .handler = [&context](Request& request) { return colourBar(context, request); },

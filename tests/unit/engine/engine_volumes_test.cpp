@@ -217,6 +217,56 @@ TEST_F(EngineTest, ATileWhoseSurfacesLieOutsideItsDataSaysSoAndIsNoError) {
     EXPECT_EQ(prepare({1, 0}).note, "");
 }
 
+TEST_F(EngineTest, RangesAreSharedByCellsOfOneQuantityAndUnit) {
+    Engine engine(options());
+    // Files of VASP say by their names what they hold.
+    const auto grid = [&](const std::string& name, double largest) {
+        std::ofstream stream(data / name);
+        stream << "one atom\n 1.0\n 2 0 0\n 0 2 0\n 0 0 2\n Na\n 1\nDirect\n 0 0 0\n\n 2 2 2\n";
+        for (int i = 0; i < 8; ++i)
+            stream << (i == 0 ? largest : 1.0) << "\n";
+        return data / name;
+    };
+    engine.importDatasets(
+        {request(grid("CHGCAR_a", 16.0)), request(grid("CHGCAR_b", 64.0)), request(grid("LOCPOT_c", 90.0))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    sheet::SetStyle shared{engine.snapshot()->sheets.front().name, sheet::Layer::sheet(), {}};
+    shared.patch = sheet::parseStylePatch(engine.keys(), {{"range.mode", "shared"}});
+    engine.apply(shared);
+    // Placed two to a row: A1, B1, A2.
+    const auto bar = [&](int cell) { return engine.colourBar("", {cell % 2, cell / 2}, {}); };
+    ASSERT_NE(bar(0).at("quantity"), bar(2).at("quantity"));
+    EXPECT_EQ(bar(0).at("high"), bar(1).at("high"));
+    EXPECT_GT(bar(2).at("high"), 2.0 * bar(1).at("high").get<double>()) << "a potential is no density";
+    EXPECT_EQ(bar(0).at("high"), bar(1).at("high")) << "again, from what was kept";
+    EXPECT_TRUE(bar(2).at("shared"));
+}
+
+TEST_F(EngineTest, ValueRangesAreThoseOfTheStepOfAllStepsAndOfThePicture) {
+    Engine engine(options());
+    const fs::path series = data / "t.nrrd";
+    {
+        std::ofstream stream(series, std::ios::binary);
+        stream << "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 8 8 8 2\nkinds: domain domain domain time\n"
+               << "centers: node node node ???\nspacings: 1 1 1 1\nencoding: raw\n\n";
+        for (int i = 0; i < 2 * 8 * 8 * 8; ++i)
+            stream.put(static_cast<char>(10 * (i % 8) + (i < 8 * 8 * 8 ? 0 : 100)));
+    }
+    engine.importDatasets({request(series)});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    view.all["technique"] = std::string("plane");
+    view.all["plane.axis"] = std::string("sagittal");
+    view.all["plane.position"] = 3.0 / 7.0; // on the samples of x = 3
+    const auto range = [&](RangeOver over) { return engine.valueRange("", {0, 0}, view, over, {64, 64}); };
+    EXPECT_EQ(range(RangeOver::Data), (ValueExtremes{0.0, 70.0}));
+    EXPECT_EQ(range(RangeOver::Time), (ValueExtremes{0.0, 170.0}));
+    EXPECT_EQ(range(RangeOver::Visible), (ValueExtremes{30.0, 30.0}));
+    view.all["time"] = std::int64_t{1};
+    EXPECT_EQ(range(RangeOver::Data), (ValueExtremes{100.0, 170.0}));
+    EXPECT_THROW(static_cast<void>(engine.valueRange("", {0, 1}, view, RangeOver::Data, {64, 64})), Error);
+}
+
 TEST_F(EngineTest, AProbeSaysWhatLiesUnderThePixel) {
     Engine engine(options());
     const fs::path ramp = data / "a.nrrd";

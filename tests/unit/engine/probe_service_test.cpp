@@ -42,5 +42,26 @@ TEST(ProbeService, ACrossingFoundOnACoarseLevelIsMovedToLevel0s) {
     EXPECT_EQ(cut->kind, HitKind::Middle);
 }
 
+TEST(ProbeService, VisibleValuesAreThoseThatTheClipObjectKeeps) {
+    auto provider = std::make_shared<MemoryVolumeProvider>();
+    test::addDataset(*provider, test::metaOf("v", glm::ivec3(9)),
+                     [](int i, int j, int k) { return static_cast<float>(i + 10 * j + 100 * k); });
+    const sheet::KeyTable keys = sheet::makeKeyTable(ColourMapTable::embedded().names());
+    ProbeService probes(keys, provider);
+    TileSpec tile;
+    tile.dataset = "v";
+    tile.transfer = std::make_shared<const TransferTable>();
+    tile.camera.projection = Projection::Orthographic;
+    tile.camera.heightWorld = 100.0;
+    // A sphere of radius 2.5 about (4, 4, 4).
+    tile.clip.object =
+        ClipObject{clipShapeKey(ClipShape::Sphere), glm::dmat4(1.0 / 2.5), ClipMode::Probe, false};
+    tile.clip.object->objectFromWorld[3] = glm::dvec4(-glm::dvec3(4.0) / 2.5, 1.0);
+    EXPECT_EQ(probes.visible(tile, *provider->describe("v")), (ValueExtremes{233.0, 655.0}))
+        << "two below and above the middle a circle of radius 1.5 is left";
+    tile.clip.object->mode = ClipMode::Clip;
+    EXPECT_EQ(probes.visible(tile, *provider->describe("v")), (ValueExtremes{0.0, 888.0}));
+}
+
 } // namespace
 } // namespace voxsheet::engine

@@ -56,6 +56,23 @@ export function getColourBar(sheet: string, cell: string): Promise<ColourBarInfo
     return getJson<ColourBarInfo>(`${sheetPath(sheet)}/cells/${pathPart(cell)}/colourbar`);
 }
 
+/** All values of the time step on show, those of all steps, or those within the picture. */
+export type RangeOver = "data" | "time" | "visible";
+
+export interface ValueRangeAnswer {
+    /** null: no value is finite. */
+    min: number | null;
+    max: number | null;
+}
+
+export function getValueRange(
+    sheet: string,
+    cell: string,
+    query: { over: RangeOver; width: number; height: number; stream: string | null },
+): Promise<ValueRangeAnswer> {
+    return getJson<ValueRangeAnswer>(`${sheetPath(sheet)}/cells/${pathPart(cell)}/range`, { ...query });
+}
+
 export interface PixelProbe {
     cell: string;
     px: number;

@@ -195,6 +195,11 @@ export interface ColourBarInfo {
     scale: string;
     unit?: string;
     quantity?: string;
+    /** Red, green, blue, opacity of samples without a value; null: there are none. */
+    nan?: [number, number, number, number] | null;
+    /** Of values outside the range; null: as at its ends. */
+    below?: [number, number, number, number] | null;
+    above?: [number, number, number, number] | null;
     shared?: boolean;
     /** The opacity curve as drawn, also when it was chosen from the data. */
     opacity?: [number, number][];

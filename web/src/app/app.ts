@@ -18,6 +18,7 @@ import { DatasetActions } from "./dataset_actions";
 import { LevelActions } from "./level_actions";
 import { Notices } from "./notices";
 import { PlaneActions } from "./plane_actions";
+import { RangeActions } from "./range_actions";
 import { ServerSync } from "./server_sync";
 import { StyleActions } from "./style_actions";
 import { KeyEdits, StyleEdit } from "./style_edit";
@@ -58,6 +59,8 @@ export class App {
         this.sender.touch();
         this.sync.tilesShown();
     });
+
+    readonly ranges = new RangeActions(this.store, this.styles, this.sizes, this.sender, this.notices);
 
     readonly client: StreamClient = new StreamClient({
         url: () => {

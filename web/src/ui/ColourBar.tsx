@@ -14,6 +14,17 @@ export function gradient(stops: readonly (readonly number[])[], towards: string)
     return `linear-gradient(${towards}, ${colours.join(", ")})`;
 }
 
+/** Quantity, unit, and a scale that is not linear. */
+export function barCaption(bar: Pick<ColourBarInfo, "quantity" | "unit" | "scale">): string {
+    const named = [bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ");
+    return [named, bar.scale && bar.scale !== "linear" ? bar.scale : ""].filter(Boolean).join(", ");
+}
+
+function cssColour([red, green, blue]: readonly [number, number, number, number]): string {
+    const byte = (value: number): number => Math.round(255 * value);
+    return `rgb(${byte(red)} ${byte(green)} ${byte(blue)})`;
+}
+
 export function describeRange(bar: Pick<ColourBarInfo, "low" | "high" | "unit" | "scale">): string {
     const scale = bar.scale && bar.scale !== "linear" ? `, ${bar.scale}` : "";
     return withUnit(`${formatNumber(bar.low)} to ${formatNumber(bar.high)}`, bar.unit) + scale;
@@ -51,7 +62,8 @@ export function ColourBar({ cell }: { cell: string }) {
         <>
             {layers}
             <div class="colour-bar" role="img" aria-label={`Colour bar of ${cell}: ${describeRange(bar)}`}>
-                <span class="bar-unit">{[bar.quantity, formatUnit(bar.unit)].filter(Boolean).join(" / ")}</span>
+                <span class="bar-unit">{barCaption(bar)}</span>
+                {bar.above && <i class="bar-end" title="above the range" style={{ background: cssColour(bar.above) }} />}
                 <div class="bar-scale" style={{ background: gradient(bar.stops, "to top") }}>
                     {bar.ticks.map((tick) => (
                         <span key={tick.label} style={{ bottom: `${100 * tick.pos}%` }}>
@@ -60,6 +72,13 @@ export function ColourBar({ cell }: { cell: string }) {
                     ))}
                     {bar === own && <IsovalueMarks cell={cell} bar={own} />}
                 </div>
+                {bar.below && <i class="bar-end" title="below the range" style={{ background: cssColour(bar.below) }} />}
+                {bar.nan && bar.nan[3] > 0 && (
+                    <span class="bar-nan">
+                        no value
+                        <i class="bar-end" style={{ background: cssColour(bar.nan) }} />
+                    </span>
+                )}
             </div>
         </>
     );
@@ -91,7 +110,8 @@ export function SharedColourBar({ cells }: { cells: string[] }) {
     });
     if (!bar) return null;
     return (
-        <span class="shared-bar" role="img" aria-label={`Shared colour bar: ${describeRange(bar)}`}>
+        <span class="shared-bar" role="img" aria-label={`Shared colour bar: ${describeRange(bar)}`} title={describeRange(bar)}>
+            {barCaption(bar) && <small>{barCaption(bar)}</small>}
             <small>{formatNumber(bar.low)}</small>
             <i style={{ background: gradient(bar.stops, "to right") }} />
             <small>{withUnit(formatNumber(bar.high), bar.unit)}</small>

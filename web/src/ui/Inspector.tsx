@@ -15,6 +15,7 @@ import { KeyControl } from "./KeyControl";
 import { LightBall } from "./LightBall";
 import { Menu } from "./Menu";
 import { PresetRow } from "./PresetRow";
+import { RangeTools } from "./RangeTools";
 import { TransferEditor } from "./TransferEditor";
 
 function TitleField({ cell }: { cell: CellState }) {
@@ -162,6 +163,7 @@ function Group({ name, keys, cell }: { name: string; keys: StyleKey[]; cell: Cel
             {open && has("clip.planes") && <ClipTools />}
             {open && has("light.direction") && <LightBall cell={cell} />}
             {open && has("transfer.opacity") && !isosurface && <TransferEditor cell={cell} />}
+            {open && has("range.mode") && cell.state === "ok" && <RangeTools cell={cell} />}
             {open && keys.map((key) => <KeyRow key={key.name} spec={key} cell={cell} />)}
         </section>
     );
