@@ -26,9 +26,18 @@ if(TARGET bench_time_n)
     add_test(NAME bench.time_n_bad_usage COMMAND bench_time_n --texture-budget 0)
     set_tests_properties(bench.time_n_bad_usage PROPERTIES LABELS bench
         PASS_REGULAR_EXPRESSION "error: --texture-budget: .0. is no number of bytes")
+    add_test(NAME bench.time_n_two_rules COMMAND bench_time_n ${small_time_n} --texture-budget 1M --dr off,slope
+        --csv ${CMAKE_BINARY_DIR}/tests/bench/two.csv --svg ${CMAKE_BINARY_DIR}/tests/bench/two.svg)
+    set_tests_properties(bench.time_n_two_rules PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"dr\":\"off\".*\"dr\":\"slope\".*\"summary\":.*\"n_max_without\":[1-6],\"n_max_with\":[1-6]")
+    add_test(NAME bench.time_n_above_device COMMAND bench_time_n ${small_time_n} --texture-budget 900000G)
+    set_tests_properties(bench.time_n_above_device PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "error: --texture-budget: .* is more than the "
+        FAIL_REGULAR_EXPRESSION "wrote")
     add_test(NAME bench.time_n_small_budget COMMAND bench_time_n ${small_time_n} --texture-budget 20K)
     set_tests_properties(bench.time_n_small_budget PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
-        PASS_REGULAR_EXPRESSION "error: .*texture budget")
+        PASS_REGULAR_EXPRESSION "error: --texture-budget: one dataset .*does not fit"
+        FAIL_REGULAR_EXPRESSION "wrote") # said before the datasets are
 endif()
 if(TARGET bench_arrival)
     add_test(NAME bench.arrival COMMAND bench_arrival --samples 96 --pixels 64 --frames 2 --json)
@@ -38,9 +47,9 @@ endif()
 if(TARGET voxsheet AND TARGET bench_time_n)
     # The texture of the clip object takes 2.1 MB.
     add_test(NAME bench.time_n_figures COMMAND voxsheet bench time-n ${small_time_n} --texture-budget 3M
-        --paper ${CMAKE_BINARY_DIR}/tests/bench/figures)
+        --figures ${CMAKE_BINARY_DIR}/tests/bench/figures)
     set_tests_properties(bench.time_n_figures PROPERTIES LABELS bench TIMEOUT 300 RESOURCE_LOCK gpu
-        PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\".*\"n_max\"")
+        PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\".*\"n_max\".*\"n_max_without\"")
 endif()
 if(TARGET voxsheet)
     add_test(NAME bench.http COMMAND voxsheet bench http --clients 1,3 --seconds 0.1 --dim 16 --width 32 --height 32 --json)

@@ -15,15 +15,16 @@ const char* const kUsage =
     "bench_time_n [OPTIONS]    (as `voxsheet bench time-n --json`; its --help explains them)\n"
     "  --technique vr|sr|vc|ie   --shading   --max-n N (64)   --dim N (256)   --tile WxH (256x256)\n"
     "  --texture-budget BYTES (256M)   --memory-budget BYTES (512M)\n"
-    "  --dr off|slope|slope-first|time|rate|count|bytes   --dr-limit X\n"
-    "  --frames N (6)   --step N (1)   --stop-ms MS   --device N   --csv FILE   --svg FILE   --paper FOLDER  "
-    " --json\n";
+    "  --dr off|slope|slope-first|time|rate|count|bytes (or several: off,slope)   --dr-limit X\n"
+    "  --frames N (6)   --step N (1)   --stop-ms MS   --device N   --csv FILE   --svg FILE   --figures "
+    "FOLDER   --json\n";
 
 struct Arguments {
     TimeNOptions options;
     TimeNTexts texts;
     TimeNFiles files;
-    std::string paperFolder;
+    std::string figuresFolder;
+    std::vector<TimeNOptions> runs;
     bool help = false;
 };
 
@@ -57,7 +58,7 @@ Arguments parse(int count, char** words) {
         {"--dr", text(a.texts.dr)},
         {"--csv", text(a.files.csv)},
         {"--svg", text(a.files.svg)},
-        {"--paper", text(a.paperFolder)},
+        {"--figures", text(a.figuresFolder)},
         {"--max-n", whole(a.options.maxN)},
         {"--dim", whole(a.options.dim)},
         {"--frames", whole(a.options.frames)},
@@ -75,20 +76,16 @@ Arguments parse(int count, char** words) {
         if (++i == count) throw InvalidInput(name, "its value is missing");
         known->second(words[i]);
     }
-    a.options = withTexts(a.options, a.texts);
+    a.runs = withTexts(a.options, a.texts);
     return a;
 }
 
 int run(const Arguments& arguments) {
     const auto progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-    std::vector<TimeNResult> results;
-    if (arguments.paperFolder.empty()) {
-        results.push_back(runTimeN(arguments.options, arguments.files, progress));
-        std::printf("%s\n", jsonOf(results.front()).c_str());
-    } else {
-        results = runPaperFigures(arguments.options, arguments.paperFolder, progress);
-        std::printf("%s\n", jsonOf(results).c_str());
-    }
+    const auto results = arguments.figuresFolder.empty()
+                             ? runTimeN(arguments.runs, arguments.files, progress)
+                             : runPaperFigures(arguments.runs.front(), arguments.figuresFolder, progress);
+    std::printf("%s\n", jsonOf(results).c_str());
     int exitCode = 0;
     for (const auto& result : results)
         if (const auto complaint = timerComplaint(result); !complaint.empty()) {

@@ -15,6 +15,7 @@ constexpr double kTop = 58.0;
 constexpr double kPanelGap = 22.0;
 constexpr double kBottom = 52.0;
 constexpr double kLegendRow = 17.0;
+constexpr double kNoteRow = 15.0;
 
 std::string number(double value) {
     char text[32];
@@ -224,11 +225,14 @@ std::string svgOf(const PlotFigure& figure) {
     double height = kTop + kBottom - kPanelGap;
     for (const auto& panel : figure.panels)
         height += panel.heightPixels + kPanelGap;
+    const double labelY = height - 12.0;
+    height += kNoteRow * static_cast<double>(figure.notes.size());
     std::string svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(kWidth) + "\" height=\"" +
         number(height) + "\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) + "\">\n" +
         "<style>text{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif;font-size:12px;fill:#222}"
-        ".title{font-size:15px;font-weight:bold}.label{font-size:13px}.note{font-size:11px}</style>\n"
+        ".title{font-size:15px;font-weight:bold}.label{font-size:13px}.note{font-size:11px;"
+        "paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}</style>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" +
         textAt(kLeft, 24.0, figure.title, "class=\"title\"") +
         textAt(kLeft, 43.0, figure.subtitle, "class=\"note\"");
@@ -237,10 +241,12 @@ std::string svgOf(const PlotFigure& figure) {
         svg += PanelDrawing(panel, figure.xLargest, top, &panel == &figure.panels.back()).draw();
         top += panel.heightPixels + kPanelGap;
     }
-    return svg +
-           textAt(0.5 * (kLeft + kWidth - kRight), height - 12.0, figure.xLabel,
-                  "class=\"label\" text-anchor=\"middle\"") +
-           "</svg>\n";
+    svg += textAt(0.5 * (kLeft + kWidth - kRight), labelY, figure.xLabel,
+                  "class=\"label\" text-anchor=\"middle\"");
+    double noteY = labelY;
+    for (const auto& note : figure.notes)
+        svg += textAt(kLeft, noteY += kNoteRow, note, "class=\"note\"");
+    return svg + "</svg>\n";
 }
 
 } // namespace voxsheet::bench

@@ -49,6 +49,7 @@ struct PlotFigure {
     std::string xLabel;
     double xLargest = 1.0; ///< the x axis runs from 0 to here
     std::vector<PlotPanel> panels;
+    std::vector<std::string> notes; ///< a line each, below the x axis
 };
 
 /// Round numbers from 0 to `largest`, at most `most` steps of 1, 2 or 5 times a power of ten.

@@ -1,6 +1,7 @@
 #include "cli/bench/time_n_command.h"
 
 #include "bench/time_n/time_n_arguments.h"
+#include "bench/time_n/time_n_comparison.h"
 #include "bench/time_n/time_n_output.h"
 #include "cli/exit_codes.h"
 
@@ -28,7 +29,7 @@ struct TimeNArguments {
     bench::TimeNOptions options;
     bench::TimeNTexts texts;
     bench::TimeNFiles files;
-    std::string paperFolder;
+    std::string figuresFolder;
     bool json = false;
 };
 
@@ -43,6 +44,8 @@ void printTable(const bench::TimeNResult& result) {
         std::printf("after N = %d the slope is R = %.2f (%.2f to %.2f) times what it was, at level %d (%s)\n",
                     transition.bend.lastN, transition.bend.ratio.value, transition.bend.ratio.low,
                     transition.bend.ratio.high, transition.level, transition.cause.c_str());
+    for (const auto& sentence : bench::absentRegimes(result))
+        std::printf("%s\n", sentence.c_str());
     std::printf("n_max %d\n", result.nMax);
 }
 
@@ -54,23 +57,21 @@ int report(const std::vector<bench::TimeNResult>& results) {
     return exitCode;
 }
 
-int runOne(const TimeNArguments& arguments, const bench::Progress& progress) {
-    const auto result =
-        bench::runTimeN(bench::withTexts(arguments.options, arguments.texts), arguments.files, progress);
-    if (arguments.json)
-        std::printf("%s\n", nlohmann::json::parse(bench::jsonOf(result)).dump(2).c_str());
-    else
-        printTable(result);
-    return report({result});
-}
-
-int runPaper(const TimeNArguments& arguments, const bench::Progress& progress) {
-    const auto results = bench::runPaperFigures(bench::withTexts(arguments.options, arguments.texts),
-                                                arguments.paperFolder, progress);
-    if (arguments.json)
+int run(const TimeNArguments& arguments, const bench::Progress& progress) {
+    const auto runs = bench::withTexts(arguments.options, arguments.texts);
+    const bool figures = !arguments.figuresFolder.empty();
+    const auto results = figures ? bench::runPaperFigures(runs.front(), arguments.figuresFolder, progress)
+                                 : bench::runTimeN(runs, arguments.files, progress);
+    if (arguments.json) {
         std::printf("%s\n", nlohmann::json::parse(bench::jsonOf(results)).dump(2).c_str());
-    else
-        std::printf("figures 6, 7, 8a and 8b are in %s\n", arguments.paperFolder.c_str());
+        return report(results);
+    }
+    if (!figures)
+        for (const auto& result : results)
+            printTable(result);
+    if (results.size() > 1) std::printf("%s", bench::summaryTable(results).c_str());
+    if (figures)
+        std::printf("figures 6, 7, 8a and 8b, and all else, are in %s\n", arguments.figuresFolder.c_str());
     return report(results);
 }
 
@@ -81,7 +82,8 @@ Action addTimeN(CLI::App& app) {
     app.description(kAbout);
     app.footer(
         "Example: voxsheet bench time-n --technique vr --dr slope --json --csv vr.csv --svg vr.svg\n"
-        "         voxsheet bench time-n --paper figures      (all of the paper's figures 6 to 8; hours)");
+        "         voxsheet bench time-n --technique ie --dr off,slope --svg ie.svg    (both in one figure)\n"
+        "         voxsheet bench time-n --figures figures      (all of the paper's figures 6 to 8; hours)");
     app.add_option(
            "--technique", a->options.scene.technique,
            "vr (volume rendering), sr (surface rendering of box and cut), vc (voxelized clipping), ie "
@@ -96,10 +98,10 @@ Action addTimeN(CLI::App& app) {
     app.add_option("--memory-budget", a->texts.memoryBudget,
                    "Bytes of volumes in host memory, e.g. 2G (512M)");
     app.add_option(
-           "--dr", a->texts.dr,
-           "Dynamic resolution: off; slope (R > 1.5), slope-first (R > 1.2, catches the paper's first "
-           "transition too), time, rate, count, bytes")
-        ->check(CLI::IsMember({"off", "slope", "slope-first", "time", "rate", "count", "bytes"}));
+        "--dr", a->texts.dr,
+        "Dynamic resolution: off; slope (R > 1.5), slope-first (R > 1.2, catches the paper's first "
+        "transition too), time, rate, count, bytes; several with commas (off,slope) are a run each over "
+        "the same datasets, in one figure, with the largest N of each (off)");
     app.add_option(
         "--dr-limit", a->texts.drLimit,
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
@@ -112,15 +114,15 @@ Action addTimeN(CLI::App& app) {
     app.add_option("--csv", a->files.csv, "Write the points here");
     app.add_option("--svg", a->files.svg, "Draw the curve here");
     app.add_option(
-        "--paper", a->paperFolder,
+        "--figures", a->figuresFolder,
         "All techniques, with and without shading, without dynamic resolution and with the slope rule: "
-        "writes figures 6, 7, 8a, 8b and every run's files into this folder");
+        "writes figures 6, 7, 8a, 8b, every run's figure, points and JSON, and a summary into this folder");
     app.add_flag("--json", a->json, "One JSON object on stdout instead of a table");
     return [a] {
         const auto progress = [](const std::string& text) {
             std::fprintf(stderr, "bench time-n: %s\n", text.c_str());
         };
-        return a->paperFolder.empty() ? runOne(*a, progress) : runPaper(*a, progress);
+        return run(*a, progress);
     };
 }
 

@@ -3,38 +3,53 @@
 #include "base/byte_size.h"
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace voxsheet::bench {
 
 namespace {
 
-void setLimit(ResolutionRule& rule, double limit) {
+/// False when the rule's criterion has no limit.
+bool setLimit(ResolutionRule& rule, double limit) {
     if (!std::isfinite(limit) || limit <= 0.0)
-        throw InvalidInput("--dr-limit", "it must be above 0").withField("dr-limit");
+        throw InvalidInput("--dr-limit", "it must be above 0").withField("--dr-limit");
     switch (rule.criterion) {
     case ResolutionCriterion::Time:
         rule.frameMs = limit;
-        return;
+        return true;
     case ResolutionCriterion::Rate:
         rule.framesPerSecond = limit;
-        return;
+        return true;
     case ResolutionCriterion::Count:
-        rule.datasets = static_cast<int>(std::min(limit, 1e6));
-        return;
+        rule.datasets = static_cast<int>(std::clamp(limit, 1.0, 1e6));
+        return true;
     case ResolutionCriterion::Bytes:
-        rule.bytes = static_cast<std::uint64_t>(std::min(limit, 0x1p60));
-        return;
+        rule.bytes = static_cast<std::uint64_t>(std::clamp(limit, 1.0, 0x1p60));
+        return true;
     case ResolutionCriterion::Off:
     case ResolutionCriterion::Slope:
     case ResolutionCriterion::SlopeFirst:
         break;
     }
-    throw InvalidInput("--dr-limit",
-                       "--dr " + std::string(resolutionCriterionName(rule.criterion)) + " has none",
-                       "it belongs to --dr time, rate, count or bytes")
-        .withField("dr-limit");
+    return false;
+}
+
+ResolutionCriterion criterionOf(const std::string& name) {
+    if (const auto criterion = resolutionCriterionFromName(name)) return *criterion;
+    throw InvalidInput("--dr", "`" + name + "` is none of off, slope, slope-first, time, rate, count, bytes",
+                       "name one of them, or several with commas between them: off,slope")
+        .withField("--dr");
+}
+
+std::vector<std::string> commaList(const std::string& text) {
+    std::vector<std::string> items;
+    std::istringstream in(text + ",");
+    for (std::string item; std::getline(in, item, ',');)
+        items.push_back(item);
+    return items;
 }
 
 } // namespace
@@ -50,22 +65,27 @@ glm::ivec2 parseTileSize(const std::string& text) {
     if (used != length || width < 8 || height < 8 || width > 4096 || height > 4096)
         throw InvalidInput("--tile", "`" + text + "` is no size of 8 to 4096 pixels",
                            "write for example 256x256")
-            .withField("tile");
+            .withField("--tile");
     return {width, height};
 }
 
-TimeNOptions withTexts(TimeNOptions options, const TimeNTexts& texts) {
-    options.scene.tilePixels = parseTileSize(texts.tile);
-    options.textureBudgetBytes = parseBytes(texts.textureBudget, "--texture-budget");
-    options.memoryBudgetBytes = parseBytes(texts.memoryBudget, "--memory-budget");
-    const auto criterion = resolutionCriterionFromName(texts.dr);
-    if (!criterion)
-        throw InvalidInput("--dr",
-                           "`" + texts.dr + "` is none of off, slope, slope-first, time, rate, count, bytes")
-            .withField("dr");
-    options.rule.criterion = *criterion;
-    if (texts.drLimit) setLimit(options.rule, *texts.drLimit);
-    return options;
+std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNTexts& texts) {
+    TimeNOptions common = options;
+    common.scene.tilePixels = parseTileSize(texts.tile);
+    common.textureBudgetBytes = parseBytes(texts.textureBudget, "--texture-budget");
+    common.memoryBudgetBytes = parseBytes(texts.memoryBudget, "--memory-budget");
+    std::vector<TimeNOptions> runs;
+    bool limitUsed = false;
+    for (const auto& name : commaList(texts.dr)) {
+        runs.push_back(common);
+        runs.back().rule.criterion = criterionOf(name);
+        if (texts.drLimit) limitUsed = setLimit(runs.back().rule, *texts.drLimit) || limitUsed;
+    }
+    if (texts.drLimit && !limitUsed)
+        throw InvalidInput("--dr-limit", "--dr " + texts.dr + " has none",
+                           "it belongs to --dr time, rate, count or bytes")
+            .withField("--dr-limit");
+    return runs;
 }
 
 } // namespace voxsheet::bench

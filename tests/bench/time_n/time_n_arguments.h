@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace voxsheet::bench {
 
@@ -13,14 +14,15 @@ struct TimeNTexts {
     std::string tile = "256x256";
     std::string textureBudget = "256M";
     std::string memoryBudget = "512M";
-    std::string dr = "off";
+    std::string dr = "off";        ///< a criterion, or several with commas: a run each
     std::optional<double> drLimit; ///< of --dr time, rate, count or bytes
 };
 
 /// "256x256", "320x200"; a single number is both. Throws InvalidInput.
 [[nodiscard]] glm::ivec2 parseTileSize(const std::string& text);
 
-/// Options with the texts put in. Throws InvalidInput, with field, for what cannot be.
-[[nodiscard]] TimeNOptions withTexts(TimeNOptions options, const TimeNTexts& texts);
+/// Options with the texts put in, one for each criterion of texts.dr. Throws InvalidInput, with field, for
+/// what cannot be.
+[[nodiscard]] std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNTexts& texts);
 
 } // namespace voxsheet::bench

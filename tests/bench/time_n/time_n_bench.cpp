@@ -12,6 +12,7 @@
 #include "store/store_volume_provider.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace voxsheet::bench {
@@ -211,17 +212,46 @@ void validateOptions(const TimeNOptions& options) {
         if (value < low || value > high)
             throw InvalidInput(option,
                                "it must be from " + std::to_string(low) + " to " + std::to_string(high))
-                .withField(option + 2);
+                .withField(option);
     };
     inRange(options.maxN, 1, 1024, "--max-n");
     inRange(options.dim, 16, 1024, "--dim");
     inRange(options.frames, 1, 1000, "--frames");
     inRange(options.step, 1, 1024, "--step");
-    if (options.textureBudgetBytes == 0 || options.memoryBudgetBytes == 0)
-        throw InvalidInput("budget", "it must be above 0 bytes");
+    const auto budget = [](std::uint64_t bytes, const char* option) {
+        if (bytes == 0)
+            throw InvalidInput(option, "it must be above 0 bytes", "give for example 256M").withField(option);
+    };
+    budget(options.textureBudgetBytes, "--texture-budget");
+    budget(options.memoryBudgetBytes, "--memory-budget");
     if (options.memoryBudgetBytes > hostMemoryBytes())
-        throw InvalidInput("--memory-budget", "this machine has " + byteText(hostMemoryBytes()))
-            .withField("memory-budget");
+        throw InvalidInput("--memory-budget",
+                           byteText(options.memoryBudgetBytes) + " is more than the " +
+                               byteText(hostMemoryBytes()) + " of this machine",
+                           "give at most that")
+            .withField("--memory-budget");
+    if (!std::isfinite(options.stopMs) || options.stopMs < 0.0)
+        throw InvalidInput("--stop-ms", "it must be 0 or more milliseconds",
+                           "leave it out to go on to --max-n")
+            .withField("--stop-ms");
+}
+
+void rehearse(const TimeNOptions& options, const BenchDatasets& datasets) {
+    validateOptions(options);
+    RenderThread thread(hostMemory(datasets, options.memoryBudgetBytes),
+                        {options.device, options.textureBudgetBytes});
+    FrameSpec frame;
+    frame.tiles = {timeNTile(options.scene, datasets.key(0), datasets.grid(), 0, 0)};
+    const auto drawn = thread.submit(std::move(frame), FramePriority::Export, &stopRequested).get();
+    const auto& tile = drawn.tiles.front();
+    if (tile.error.empty()) return;
+    if (tile.errorKind != ErrorKind::LimitExceeded) throw GpuError("time-N bench", tile.error);
+    throw InvalidInput("--texture-budget",
+                       "one dataset of " + std::to_string(options.dim) + "³ voxels at full resolution (" +
+                           options.scene.technique + (options.scene.shading ? ", shading" : "") +
+                           ") does not fit: " + tile.error,
+                       "give more, or a smaller --dim")
+        .withField("--texture-budget");
 }
 
 TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,

@@ -24,4 +24,9 @@ class BenchDatasets;
 /// Throws InvalidInput for options out of range: what timeNBench asks before it begins.
 void validateOptions(const TimeNOptions& options);
 
+/// Draws the first dataset once, at full resolution, so that what cannot be measured is said before minutes
+/// go into writing all of them. Throws InvalidInput (field --texture-budget) for a budget above the device's
+/// memory, or one that does not hold what the picture of a single dataset needs; and as timeNBench.
+void rehearse(const TimeNOptions& options, const BenchDatasets& datasets);
+
 } // namespace voxsheet::bench

@@ -2,6 +2,7 @@
 
 #include "base/byte_size.h"
 #include "bench/svg_plot.h"
+#include "bench/time_n/time_n_comparison.h"
 
 #include <algorithm>
 #include <array>
@@ -83,6 +84,18 @@ void addSegments(PlotPanel& panel, const TimeNResult& result, const TimeUnit& un
     }
 }
 
+/// The curve alone, for figures that hold another one.
+PlotSeries plainCurve(const TimeNResult& result, const TimeUnit& unit, const std::string& label,
+                      const std::string& colour) {
+    PlotSeries series;
+    series.label = label;
+    series.colour = colour;
+    series.lineWidth = 1.0;
+    for (const auto& point : result.points)
+        series.points.push_back(plotted(point, unit));
+    return series;
+}
+
 void addTrials(PlotPanel& panel, const TimeNResult& result, const TimeUnit& unit) {
     PlotSeries series;
     series.label = "at the finer level, before the rule was found broken";
@@ -124,6 +137,18 @@ std::vector<PlotRule> bends(const TimeNResult& result) {
     return rules;
 }
 
+PlotSeries fittedRatios(const TimeNResult& result, const std::string& label, const std::string& colour) {
+    PlotSeries fitted;
+    fitted.label = label;
+    fitted.colour = colour;
+    for (const auto& point : result.points)
+        if (point.ratio)
+            fitted.points.push_back(
+                {static_cast<double>(point.n), std::min(point.ratio->value, 2.0 * kLargestRatioShown),
+                 std::max(0.0, point.ratio->low), std::min(point.ratio->high, 2.0 * kLargestRatioShown)});
+    return fitted;
+}
+
 PlotPanel ratioPanel(const TimeNResult& result) {
     PlotPanel panel;
     panel.yLabel = "R";
@@ -136,19 +161,50 @@ PlotPanel ratioPanel(const TimeNResult& result) {
     raw.label = "raw, of three points";
     raw.colour = "#999999";
     raw.markerRadius = 1.8;
-    PlotSeries fitted;
-    fitted.label = "fitted, 95 % confidence";
-    fitted.colour = "#0072B2";
-    for (const auto& point : result.points) {
-        const double n = point.n;
-        if (point.rawRatio) raw.points.push_back({n, *point.rawRatio, 0.0, 0.0});
-        if (point.ratio)
-            fitted.points.push_back({n, std::min(point.ratio->value, 2.0 * kLargestRatioShown),
-                                     std::max(0.0, point.ratio->low),
-                                     std::min(point.ratio->high, 2.0 * kLargestRatioShown)});
-    }
-    panel.series = {raw, fitted};
+    for (const auto& point : result.points)
+        if (point.rawRatio) raw.points.push_back({static_cast<double>(point.n), *point.rawRatio, 0.0, 0.0});
+    panel.series = {raw, fittedRatios(result, "fitted, 95 % confidence", "#0072B2")};
     return panel;
+}
+
+PlotPanel levelPanel(const TimeNResult& result) {
+    PlotPanel panel;
+    panel.yLabel = "level";
+    panel.heightPixels = 90.0;
+    int coarsest = 1;
+    PlotSeries steps;
+    steps.colour = "#777777";
+    steps.lineWidth = 1.0;
+    steps.marker = PlotMarker::None;
+    for (const auto& point : result.points) {
+        coarsest = std::max(coarsest, point.level);
+        if (!steps.points.empty() && steps.points.back().y != point.level)
+            steps.points.push_back({static_cast<double>(point.n), steps.points.back().y, 0.0, 0.0});
+        steps.points.push_back({static_cast<double>(point.n), static_cast<double>(point.level), 0.0, 0.0});
+    }
+    panel.series.push_back(steps);
+    for (int level = 0; level <= coarsest; ++level) {
+        PlotSeries dots;
+        dots.colour = colourOf(level);
+        for (const auto& point : result.points)
+            if (point.level == level)
+                dots.points.push_back({static_cast<double>(point.n), static_cast<double>(level), 0.0, 0.0});
+        panel.series.push_back(dots);
+    }
+    panel.yLargest = coarsest + 0.3;
+    return panel;
+}
+
+std::vector<std::string> notesOf(const TimeNResult& result, const std::string& which) {
+    auto notes = absentRegimes(result);
+    if (const auto busy = busyMachine(result); !busy.empty()) notes.push_back(busy);
+    for (auto& note : notes)
+        note = which + note;
+    return notes;
+}
+
+std::string titleOf(const TimeNScene& scene) {
+    return longName(scene.technique) + (scene.shading ? ", with shading; " : ", without shading; ");
 }
 
 } // namespace
@@ -156,9 +212,7 @@ PlotPanel ratioPanel(const TimeNResult& result) {
 std::string timeNFigure(const TimeNResult& result) {
     const TimeUnit unit(std::max(largestMs(result.points), largestMs(result.trials)));
     PlotFigure figure;
-    const auto& scene = result.options.scene;
-    figure.title = longName(scene.technique) + (scene.shading ? ", with shading; " : ", without shading; ") +
-                   ruleText(result.options);
+    figure.title = titleOf(result.options.scene) + ruleText(result.options);
     figure.subtitle = settings(result);
     figure.xLabel = "number of datasets N";
     figure.xLargest = result.options.maxN + 1.0;
@@ -169,35 +223,62 @@ std::string timeNFigure(const TimeNResult& result) {
     addPart(times, result, unit, "of which upload", &TimeNPoint::uploadMs, "#E69F00");
     addPart(times, result, unit, "of which reading", &TimeNPoint::ioMs, "#56B4E9");
     times.vertical = bends(result);
-    figure.panels = {times, ratioPanel(result)};
+    figure.panels = {times, ratioPanel(result), levelPanel(result)};
+    figure.notes = notesOf(result, {});
     return svgOf(figure);
 }
 
-std::string techniquesFigure(std::span<const TimeNResult> results, const std::string& title) {
+std::string comparisonFigure(const TimeNResult& without, const TimeNResult& with) {
+    const TimeUnit unit(std::max(largestMs(without.points), largestMs(with.points)));
+    PlotFigure figure;
+    const auto& scene = with.options.scene;
+    figure.title = longName(scene.technique) + (scene.shading ? ", shading" : "") + ": N max " +
+                   nMaxText(without) + " without DR, " + nMaxText(with) + " with";
+    figure.subtitle = settings(with);
+    figure.xLabel = "number of datasets N";
+    figure.xLargest = std::max(without.options.maxN, with.options.maxN) + 1.0;
+    PlotPanel times;
+    times.yLabel = "T_N in " + unit.name();
+    times.series.push_back(plainCurve(without, unit, ruleText(without.options), "#000000"));
+    addSegments(times, with, unit);
+    times.vertical = bends(without);
+    PlotPanel ratios = ratioPanel(with);
+    ratios.vertical.clear();
+    ratios.series = {fittedRatios(without, "fitted, " + ruleText(without.options), "#000000"),
+                     fittedRatios(with, "fitted, " + ruleText(with.options), "#0072B2")};
+    figure.panels = {times, ratios, levelPanel(with)};
+    figure.notes = notesOf(without, ruleText(without.options) + ": ");
+    for (const auto& note : notesOf(with, ruleText(with.options) + ": "))
+        figure.notes.push_back(note);
+    return svgOf(figure);
+}
+
+std::string techniquesFigure(std::span<const TimeNResult> results, const std::string& title, int largestN) {
+    const auto shown = [&](const TimeNPoint& point) { return point.n <= largestN; };
     double largest = 0.0;
     for (const auto& result : results)
-        largest = std::max(largest, largestMs(result.points));
+        for (const auto& point : result.points)
+            if (shown(point)) largest = std::max(largest, point.ms.high);
     const TimeUnit unit(largest);
     PlotFigure figure;
     figure.title = title;
     figure.subtitle = settings(results.front());
     figure.xLabel = "number of datasets N";
-    figure.xLargest = results.front().options.maxN + 1.0;
+    figure.xLargest = largestN + 1.0;
     PlotPanel times;
     times.yLabel = "rendering time T_N in " + unit.name();
     times.heightPixels = 380.0;
     int index = 0;
     for (const auto& result : results) {
-        PlotSeries series;
-        series.label = longName(result.options.scene.technique);
-        series.colour = colourOf(index++);
+        auto series = plainCurve(result, unit, longName(result.options.scene.technique), colourOf(index++));
         series.lineWidth = 1.2;
-        for (const auto& point : result.points)
-            series.points.push_back(plotted(point, unit));
-        times.series.push_back(series);
+        std::erase_if(series.points, [&](const PlotPoint& point) { return point.x > largestN; });
         for (const auto& transition : result.transitions)
-            if (transition.newLevel)
+            if (transition.newLevel && transition.bend.lastN < largestN)
                 times.vertical.push_back({transition.bend.lastN + 0.5, "", series.colour});
+        times.series.push_back(series);
+        for (const auto& note : notesOf(result, result.options.scene.technique + ": "))
+            figure.notes.push_back(note);
     }
     figure.panels = {times};
     return svgOf(figure);

@@ -5,9 +5,9 @@
 #include "bench/time_n/bench_datasets.h"
 #include "bench/time_n/stop_signals.h"
 #include "bench/time_n/time_n_bench.h"
+#include "bench/time_n/time_n_comparison.h"
 #include "bench/time_n/time_n_figure.h"
 
-#include <cstdio>
 #include <fstream>
 
 namespace voxsheet::bench {
@@ -24,8 +24,16 @@ void write(const fs::path& file, const std::string& text) {
                       "name a file in a folder that you may write to");
 }
 
-BenchDatasets datasetsFor(const TimeNOptions& options, const Progress& progress) {
-    validateOptions(options);
+/// \param runs  all that will be drawn; they differ in scene and rule only
+BenchDatasets datasetsFor(std::span<const TimeNOptions> runs, const Progress& progress) {
+    const auto& options = runs.front();
+    for (const auto& run : runs)
+        validateOptions(run);
+    {
+        const BenchDatasets one(1, options.dim, [](int) { throwIfStopRequested(); });
+        for (const auto& run : runs)
+            rehearse(run, one);
+    }
     return BenchDatasets(options.maxN, options.dim, [&](int count) {
         throwIfStopRequested();
         if (count % 16 == 0 || count == options.maxN)
@@ -33,16 +41,21 @@ BenchDatasets datasetsFor(const TimeNOptions& options, const Progress& progress)
     });
 }
 
-TimeNResult measure(const TimeNOptions& options, const BenchDatasets& datasets, const TimeNFiles& files,
-                    const Progress& progress) {
+TimeNResult measure(const TimeNOptions& options, const BenchDatasets& datasets, const Progress& progress) {
     auto result = timeNBench(options, datasets, progress);
-    if (!files.csv.empty()) write(files.csv, csvOf(result));
-    if (!files.svg.empty()) write(files.svg, timeNFigure(result));
     for (const auto& sentence : absentRegimes(result))
         progress(sentence);
     if (const auto busy = busyMachine(result); !busy.empty()) progress(busy);
     return result;
 }
+
+std::string figureOf(std::span<const TimeNResult> results) {
+    const auto comparison = comparisonsOf(results).front();
+    if (comparison.without == nullptr || comparison.with == nullptr) return timeNFigure(results.front());
+    return comparisonFigure(*comparison.without, *comparison.with);
+}
+
+constexpr int kLowN = 10; ///< where the paper's insets end
 
 struct PaperFigure {
     const char* name;
@@ -60,43 +73,88 @@ constexpr PaperFigure kPaperFigures[] = {
 
 } // namespace
 
-TimeNResult runTimeN(const TimeNOptions& options, const TimeNFiles& files, const Progress& progress) {
+std::vector<TimeNResult> runTimeN(const std::vector<TimeNOptions>& runs, const TimeNFiles& files,
+                                  const Progress& progress) {
     const StopSignals signals;
     for (const auto& file : {files.csv, files.svg})
         if (!file.empty()) write(file, {});
-    const auto datasets = datasetsFor(options, progress);
-    return measure(options, datasets, files, progress);
+    const auto datasets = datasetsFor(runs, progress);
+    std::vector<TimeNResult> results;
+    for (const auto& options : runs) {
+        if (runs.size() > 1) progress(std::string("--dr ") + resolutionCriterionName(options.rule.criterion));
+        results.push_back(measure(options, datasets, progress));
+    }
+    if (!files.csv.empty()) write(files.csv, csvOf(results));
+    if (!files.svg.empty()) write(files.svg, figureOf(results));
+    return results;
 }
 
-std::vector<TimeNResult> runPaperFigures(TimeNOptions options, const fs::path& folder,
+namespace {
+
+std::vector<TimeNOptions> runsOf(const PaperFigure& figure, TimeNOptions options) {
+    options.scene.shading = figure.shading;
+    options.rule.criterion = figure.criterion;
+    std::vector<TimeNOptions> runs;
+    for (const char* technique : {"vr", "sr", "vc", "ie"}) {
+        options.scene.technique = technique;
+        runs.push_back(options);
+    }
+    return runs;
+}
+
+void writeRun(const fs::path& folder, const std::string& name, const TimeNResult& result) {
+    write(folder / (name + ".csv"), csvOf({&result, 1}));
+    write(folder / (name + ".svg"), timeNFigure(result));
+    write(folder / (name + ".json"), jsonOf(result) + "\n");
+}
+
+void writeSummary(const fs::path& folder, std::span<const TimeNResult> results) {
+    write(folder / "times.csv", csvOf(results));
+    write(folder / "summary.md", summaryTable(results));
+    for (const auto& each : comparisonsOf(results))
+        if (each.without != nullptr && each.with != nullptr)
+            write(folder / (each.technique + (each.shading ? "-shading" : "") + ".svg"),
+                  comparisonFigure(*each.without, *each.with));
+}
+
+} // namespace
+
+std::vector<TimeNResult> runPaperFigures(const TimeNOptions& options, const fs::path& folder,
                                          const Progress& progress) {
     const StopSignals signals;
     fs::create_directories(folder);
-    const auto datasets = datasetsFor(options, progress);
+    std::vector<TimeNOptions> runs;
+    for (const auto& figure : kPaperFigures)
+        for (const auto& run : runsOf(figure, options))
+            runs.push_back(run);
+    const auto datasets = datasetsFor(runs, progress);
     std::vector<TimeNResult> all;
+    all.reserve(runs.size());
     for (const auto& figure : kPaperFigures) {
-        options.scene.shading = figure.shading;
-        options.rule.criterion = figure.criterion;
-        std::vector<TimeNResult> results;
-        for (const char* technique : {"vr", "sr", "vc", "ie"}) {
-            options.scene.technique = technique;
-            const auto name = std::string(figure.name) + "-" + technique;
+        const auto first = all.size();
+        for (const auto& run : runsOf(figure, options)) {
+            const auto name = std::string(figure.name) + "-" + run.scene.technique;
             progress(name);
-            results.push_back(
-                measure(options, datasets, {folder / (name + ".csv"), folder / (name + ".svg")}, progress));
-            write(folder / (name + ".json"), jsonOf(results.back()) + "\n");
+            all.push_back(measure(run, datasets, progress));
+            writeRun(folder, name, all.back());
+            writeSummary(folder, all); // what is there counts when the rest is interrupted
         }
-        write(folder / (std::string(figure.name) + ".svg"), techniquesFigure(results, figure.title));
-        all.insert(all.end(), results.begin(), results.end());
+        const auto results = std::span(all).subspan(first);
+        const std::string title = figure.title;
+        write(folder / (std::string(figure.name) + ".svg"), techniquesFigure(results, title, options.maxN));
+        if (options.maxN > kLowN)
+            write(folder / (std::string(figure.name) + "-low-n.svg"),
+                  techniquesFigure(results, title + ", low N", kLowN));
     }
     return all;
 }
 
 std::string jsonOf(const std::vector<TimeNResult>& results) {
+    if (results.size() == 1) return jsonOf(results.front());
     std::vector<std::string> runs;
     for (const auto& result : results)
         runs.push_back(jsonOf(result));
-    return jsonObject({{"runs", jsonArray(runs)}});
+    return jsonObject({{"runs", jsonArray(runs)}, {"summary", summaryJson(results)}});
 }
 
 std::string timerComplaint(const TimeNResult& result) {

@@ -87,7 +87,7 @@ std::string jsonListOf(const std::vector<T>& values) {
 
 std::string jsonOrNull(const std::optional<int>& number) { return number ? std::to_string(*number) : "null"; }
 
-std::string csvRow(const TimeNPoint& point, bool trial) {
+std::string csvRow(const TimeNOptions& options, const TimeNPoint& point, bool trial) {
     const auto number = [](std::optional<double> value) {
         const auto text = jsonNumber(value);
         return text == "null" ? std::string() : text;
@@ -100,7 +100,8 @@ std::string csvRow(const TimeNPoint& point, bool trial) {
            number(point.ioMs) + ',' + number(point.rawRatio) + ',' + of(&SlopeRatio::value) + ',' +
            of(&SlopeRatio::low) + ',' + of(&SlopeRatio::high) + ',' + std::to_string(point.residentBytes) +
            ',' + std::to_string(point.hostBytes) + ',' + std::to_string(point.diskBytesPerFrame) + ',' +
-           (trial ? '1' : '0') + '\n';
+           (trial ? '1' : '0') + ',' + options.scene.technique + ',' + (options.scene.shading ? '1' : '0') +
+           ',' + resolutionCriterionName(options.rule.criterion) + '\n';
 }
 
 } // namespace
@@ -169,14 +170,16 @@ std::string jsonOf(const TimeNResult& result) {
                                                    {"agree", result.timersAgree ? "true" : "false"}})}});
 }
 
-std::string csvOf(const TimeNResult& result) {
+std::string csvOf(std::span<const TimeNResult> results) {
     std::string text =
         "n,level,ms,ms_low,ms_high,upload_ms,io_ms,r_raw,r,r_low,r_high,resident_bytes,host_bytes,"
-        "disk_bytes_per_frame,trial\n";
-    for (const auto& point : result.points)
-        text += csvRow(point, false);
-    for (const auto& point : result.trials)
-        text += csvRow(point, true);
+        "disk_bytes_per_frame,trial,technique,shading,dr\n";
+    for (const auto& result : results) {
+        for (const auto& point : result.points)
+            text += csvRow(result.options, point, false);
+        for (const auto& point : result.trials)
+            text += csvRow(result.options, point, true);
+    }
     return text;
 }
 

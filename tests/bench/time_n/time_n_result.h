@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -84,7 +85,7 @@ struct TimeNResult {
 [[nodiscard]] std::vector<std::string> absentRegimes(const TimeNResult& result);
 
 [[nodiscard]] std::string jsonOf(const TimeNResult& result);
-/// One row per point, trials too; with a header.
-[[nodiscard]] std::string csvOf(const TimeNResult& result);
+/// One row per point of each result, trials too; with a header.
+[[nodiscard]] std::string csvOf(std::span<const TimeNResult> results);
 
 } // namespace voxsheet::bench

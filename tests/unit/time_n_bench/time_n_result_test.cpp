@@ -70,9 +70,11 @@ TEST(TimeNResult, CsvHasARowPerPointAndAsManyFieldsAsItsHeader) {
     TimeNResult result;
     result.points = {pointAt(1, 0, 10.0), pointAt(2, 0, 20.0)};
     result.trials = {pointAt(2, 0, 40.0)};
-    const auto csv = csvOf(result);
+    result.options.rule.criterion = ResolutionCriterion::Slope;
+    const auto csv = csvOf({&result, 1});
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * 14);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * 17);
+    EXPECT_TRUE(csv.ends_with(",vr,0,slope\n")) << csv;
 }
 
 TEST(TimeNArguments, TilesAndRules) {
@@ -83,12 +85,25 @@ TEST(TimeNArguments, TilesAndRules) {
     TimeNTexts texts;
     texts.dr = "time";
     texts.drLimit = 250.0;
-    EXPECT_DOUBLE_EQ(withTexts({}, texts).rule.frameMs, 250.0);
+    EXPECT_DOUBLE_EQ(withTexts({}, texts).front().rule.frameMs, 250.0);
     texts.drLimit = -1.0;
     EXPECT_THROW((void)withTexts({}, texts), InvalidInput);
     texts.dr = "slope";
     texts.drLimit = 2.0;
     EXPECT_THROW((void)withTexts({}, texts), InvalidInput);
+    texts.drLimit.reset();
+    texts.dr = "off,slope";
+    const auto runs = withTexts({}, texts);
+    ASSERT_EQ(runs.size(), 2U);
+    EXPECT_EQ(runs[0].rule.criterion, ResolutionCriterion::Off);
+    EXPECT_EQ(runs[1].rule.criterion, ResolutionCriterion::Slope);
+    for (const char* text : {"", "off,", ",off", "off;slope", "steep"}) {
+        texts.dr = text;
+        EXPECT_THROW((void)withTexts({}, texts), InvalidInput) << text;
+    }
+    texts.dr = "off,count";
+    texts.drLimit = 0.5; // less than one dataset is one
+    EXPECT_EQ(withTexts({}, texts)[1].rule.datasets, 1);
     texts.drLimit.reset();
     texts.textureBudget = "-1G";
     EXPECT_THROW((void)withTexts({}, texts), InvalidInput);
@@ -132,7 +147,7 @@ TEST(SvgPlot, FiguresHoldEveryPoint) {
     std::size_t dots = 0;
     for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
         ++dots;
-    EXPECT_EQ(dots, 9U + 3U); // and the legends'
+    EXPECT_EQ(dots, 9U + 9U + 3U); // T_N, the level, and the legends'
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
 }
