@@ -92,6 +92,10 @@ DynamicResolution::DynamicResolution(const ResolutionRule& rule, int levels) : r
 
 void DynamicResolution::addFrame(int n, double ms) { times_.add(n, level_, ms); }
 
+void DynamicResolution::addPartialFrame(int n, double ms, double doubtMs) {
+    times_.addPartly(n, level_, ms, doubtMs);
+}
+
 void DynamicResolution::forgetTimes() {
     times_ = {};
     std::fill(watches_.begin(), watches_.end(), SlopeWatch{});

@@ -68,6 +68,8 @@ public:
 
     /// A frame of all n datasets, drawn at level(), took `ms`. Throws InvalidInput as TimeN::add.
     void addFrame(int n, double ms);
+    /// As TimeN::addPartly, at level().
+    void addPartialFrame(int n, double ms, double doubtMs);
     /// At most one level at a time towards the coarse or the fine (Slope, SlopeFirst, Time, Rate: the new
     /// level has to be measured before the next step; one step up per call), or straight to the level that
     /// the load asks for (Count, Bytes). N = 0 keeps the level.

@@ -37,7 +37,7 @@ struct CellDemand {
     double texelEdgePixels = 1.0;
     double pixels = 1.0;                     ///< of its picture
     std::vector<std::uint64_t> textureBytes; ///< per level; at least one
-    std::vector<FurtherVolume> further;      ///< fused layers, and what colours isosurfaces
+    std::vector<FurtherVolume> further;      ///< fused layers, what colours isosurfaces, clip objects
     std::vector<double> ms;                  ///< per level: expected time of its picture; 0 = not known
     int finest = 0;                          ///< no finer level is asked for
     std::optional<int> pinned;               ///< the level that the user chose; clamped to those there are

@@ -24,7 +24,7 @@ double missed(int count, int k) {
 } // namespace
 
 double MeasuredMedian::standardError() const {
-    return count < 2 ? 0.0 : 0.5 * (high - low) / normalQuantile(0.5 + 0.5 * coverage);
+    return coverage <= 0.0 ? 0.0 : 0.5 * (high - low) / normalQuantile(0.5 + 0.5 * coverage);
 }
 
 MeasuredMedian measuredMedian(std::span<const double> values) {

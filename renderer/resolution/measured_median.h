@@ -16,7 +16,8 @@ struct MeasuredMedian {
     double coverage = 0.0;
     int count = 0;
 
-    /// Half the interval in units of a normal distribution's standard deviation; 0 for a single value.
+    /// Half the interval in units of a normal distribution's standard deviation; 0 where the interval says
+    /// nothing (coverage 0).
     [[nodiscard]] double standardError() const;
 };
 

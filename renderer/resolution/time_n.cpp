@@ -2,42 +2,60 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxsheet {
 
 namespace {
 
-TimePoint pointOf(int n, const std::deque<double>& frames) {
-    const std::vector<double> values(frames.begin(), frames.end());
-    return {n, measuredMedian(values)};
-}
+constexpr double kDoubtCoverage = 0.95;
 
-} // namespace
-
-void TimeN::add(int n, int level, double ms) {
+void validate(int n, int level, double ms) {
     if (n < 1 || level < 0)
         throw InvalidInput("measured frame",
                            "it has " + std::to_string(n) + " datasets at level " + std::to_string(level));
     if (!std::isfinite(ms) || ms <= 0.0)
         throw InvalidInput("measured frame", "a time of " + std::to_string(ms) + " ms is none");
-    auto& frames = frames_[{level, n}];
+}
+
+} // namespace
+
+TimePoint TimeN::pointOf(int n, const Measured& measured) {
+    if (measured.frames.empty()) {
+        const auto& [ms, doubt] = measured.partly;
+        return {n, {ms, std::max(0.0, ms - doubt), ms + doubt, kDoubtCoverage, 1}, true};
+    }
+    const std::vector<double> values(measured.frames.begin(), measured.frames.end());
+    return {n, measuredMedian(values), false};
+}
+
+void TimeN::add(int n, int level, double ms) {
+    validate(n, level, ms);
+    auto& frames = measured_[{level, n}].frames;
     frames.push_back(ms);
     if (frames.size() > kFramesKept) frames.pop_front();
 }
 
+void TimeN::addPartly(int n, int level, double ms, double doubtMs) {
+    validate(n, level, ms);
+    if (!std::isfinite(doubtMs) || doubtMs < 0.0)
+        throw InvalidInput("measured frame", "a doubt of " + std::to_string(doubtMs) + " ms is none");
+    measured_[{level, n}].partly = {ms, doubtMs};
+}
+
 std::vector<TimePoint> TimeN::curve(int level, int largestN) const {
     std::vector<TimePoint> points;
-    const auto end = frames_.upper_bound({level, largestN});
-    for (auto frames = frames_.lower_bound({level, 0}); frames != end; ++frames)
-        points.push_back(pointOf(frames->first.second, frames->second));
+    const auto end = measured_.upper_bound({level, largestN});
+    for (auto measured = measured_.lower_bound({level, 0}); measured != end; ++measured)
+        points.push_back(pointOf(measured->first.second, measured->second));
     return points;
 }
 
 std::optional<TimePoint> TimeN::point(int n, int level) const {
-    const auto frames = frames_.find({level, n});
-    if (frames == frames_.end()) return std::nullopt;
-    return pointOf(n, frames->second);
+    const auto measured = measured_.find({level, n});
+    if (measured == measured_.end()) return std::nullopt;
+    return pointOf(n, measured->second);
 }
 
 std::optional<double> rawSlopeRatio(const std::vector<TimePoint>& curve) {

@@ -3,8 +3,10 @@
 
 #include "sheet/typed_style.h"
 #include "volume/clip.h"
+#include "volume/dataset.h"
 #include "volume/grid.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,7 @@ struct ClipObjectVolume {
     /// the volume that was compared, so that it lands on itself. Not set: an analytic shape, which has a unit
     /// and an origin of its own (volume/clip_shapes.h).
     std::optional<Grid> extent;
+    std::shared_ptr<const DatasetMeta> meta = nullptr; ///< of the distances
 };
 
 /// Places the object. World: as it is, then clip.transform about the world's origin. Fraction: an analytic

@@ -192,8 +192,11 @@ SheetImage Engine::renderSheet(const SheetImageRequest& request) const {
 
 std::vector<ProbeValue> Engine::probeWorld(const std::string& sheetName, const glm::dvec3& world) const {
     const sheet::Snapshot now = snapshot();
-    return implementation_->probes.atWorld(*now, implementation_->indexOf(*now, sheetName), {},
-                                           *implementation_->contents(*now), world);
+    const std::size_t index = implementation_->indexOf(*now, sheetName);
+    const auto contents = implementation_->contents(*now);
+    const View view;
+    return implementation_->probes.atWorld(*now, index, view, *contents, world,
+                                           implementation_->layersOf(*now, index, view, contents));
 }
 
 std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const sheet::Address& cell,
@@ -211,7 +214,8 @@ std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const s
             .style.probeOpacity;
     const auto hit = implementation_->probes.underPixel(*tile.spec, meta, pixel, opacity);
     if (!hit) return {};
-    auto values = implementation_->probes.atWorld(*now, index, view, *contents, hit->world);
+    auto values = implementation_->probes.atWorld(*now, index, view, *contents, hit->world,
+                                                  implementation_->layersOf(*now, index, view, contents));
     for (ProbeValue& value : values) {
         if (value.cell != cell) continue;
         value.hit = hitName(hit->kind);

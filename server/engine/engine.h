@@ -130,6 +130,15 @@ struct PreparedTile {
 /// visibleRange()).
 enum class RangeOver { Data, Time, Visible };
 
+/// The value of a volume that is blended into a cell's picture.
+struct LayerValue {
+    std::string name;            ///< as the style names it: "B1", "run 2"
+    std::optional<double> value; ///< as ProbeValue
+    std::optional<double> interpolated;
+    std::string unit;
+    std::string note;
+};
+
 struct ProbeValue {
     sheet::Address cell;
     std::optional<double>
@@ -144,6 +153,7 @@ struct ProbeValue {
     /// of the box). Empty for other cells and for points of the world.
     std::string hit;
     std::optional<double> isovalue; ///< of the surface, when an isosurface was hit
+    std::vector<LayerValue> layers; ///< of the fused view, in the order of the style's `layers`
 };
 
 struct SheetImageRequest {

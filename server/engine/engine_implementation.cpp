@@ -256,6 +256,14 @@ std::size_t Engine::Implementation::indexOf(const sheet::Workbook& snapshot, con
     return sheetName.empty() ? 0 : sheet::sheetIndex(snapshot, sheetName);
 }
 
+ProbeService::LayersOf Engine::Implementation::layersOf(const sheet::Workbook& snapshot,
+                                                        std::size_t sheetIndex, const View& view,
+                                                        const std::shared_ptr<const CellContents>& contents) {
+    return [this, &snapshot, sheetIndex, &view, contents](const sheet::Address& cell) {
+        return tiles.look(snapshot, sheetIndex, cell, view, contents).layers;
+    };
+}
+
 std::future<FrameResult> Engine::Implementation::render(FrameSpec frame, FramePriority priority,
                                                         std::function<bool()> cancelled) const {
     if (!thread)

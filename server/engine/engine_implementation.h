@@ -55,6 +55,11 @@ public:
     /// Of the named sheet, or of the first if the name is empty. Throws NotFound.
     [[nodiscard]] static std::size_t indexOf(const sheet::Workbook& snapshot, const std::string& sheetName);
 
+    /// For ProbeService::atWorld, whose call it must not outlive.
+    [[nodiscard]] ProbeService::LayersOf layersOf(const sheet::Workbook& snapshot, std::size_t sheetIndex,
+                                                  const View& view,
+                                                  const std::shared_ptr<const CellContents>& contents);
+
     [[nodiscard]] std::future<FrameResult> render(FrameSpec frame, FramePriority priority,
                                                   std::function<bool()> cancelled) const;
 

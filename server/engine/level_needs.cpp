@@ -84,4 +84,10 @@ FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, FloatT
             bytesPerLevel(meta, field, floatTexels, exactR8Filtering, 0)};
 }
 
+FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool exactR8Filtering) {
+    FurtherVolume object = furtherVolume(meta, 0, 0, FloatTexels::Full, exactR8Filtering);
+    object.textureBytes.resize(1);
+    return object;
+}
+
 } // namespace voxsheet::engine

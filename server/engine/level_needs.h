@@ -19,8 +19,8 @@ struct LevelNeeds {
     std::string work;   ///< technique and what else changes the time of a picture per pixel
     double texelEdgePixels = 1.0;            ///< CellDemand::texelEdgePixels
     std::vector<std::uint64_t> textureBytes; ///< per level; its size is the number of levels
-    /// Fused layers and what colours isosurfaces. A volume whose own cell is lit with a gradient texture
-    /// counts once there and once here: an estimate from above.
+    /// Fused layers, what colours isosurfaces, and the distances of a clip object. A volume whose own cell is
+    /// lit with a gradient texture counts once there and once here: an estimate from above.
     std::vector<FurtherVolume> further;
     int finest = 0;            ///< what the style's `quality` allows
     std::optional<int> pinned; ///< the style's `level`
@@ -38,5 +38,8 @@ struct LevelNeeds {
 /// One volume as textures hold it, for LevelNeeds::further.
 [[nodiscard]] FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step,
                                           FloatTexels floatTexels, bool exactR8Filtering);
+
+/// A clip object's distances, likewise: at level 0 whatever the level of the picture.
+[[nodiscard]] FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool exactR8Filtering);
 
 } // namespace voxsheet::engine

@@ -60,6 +60,11 @@ std::string thresholdFailureCode(const JobState& state) {
     return state.failure && state.failure->kind == ErrorKind::LimitExceeded ? "#MEM!" : "#TYPE!";
 }
 
+std::shared_ptr<const DatasetMeta> shapeMeta(const std::string& name) {
+    const auto shape = clipShapeFromName(name);
+    return shape ? std::make_shared<const DatasetMeta>(clipShapeMeta(*shape)) : nullptr;
+}
+
 } // namespace
 
 NamedVolumes::Found<FormulaInput> NamedVolumes::find(const sheet::VolumeName& name, const NamingCell& from,
@@ -130,7 +135,7 @@ NamedVolumes::Found<ClipObjectVolume> NamedVolumes::clipObject(const std::string
         return threshold(*comparison, shape, from);
     releaseClipObject(from);
     if (const auto* analytic = std::get_if<sheet::AnalyticShape>(&parsed))
-        return found(ClipObjectVolume{clipShapeKey(analytic->name), std::nullopt});
+        return found(ClipObjectVolume{clipShapeKey(analytic->name), std::nullopt, shapeMeta(analytic->name)});
     return mesh(std::get<sheet::DatasetShape>(parsed), from);
 }
 
@@ -148,7 +153,7 @@ NamedVolumes::Found<ClipObjectVolume> NamedVolumes::mesh(const sheet::DatasetSha
                             ", and not the distances of a mesh",
                         "say where it begins and ends, as in '" + shape.dataset + "' > 0.4");
     }
-    return found(ClipObjectVolume{meta.key, meta.grid});
+    return found(ClipObjectVolume{meta.key, meta.grid, dataset.volume->meta});
 }
 
 NamedVolumes::Found<ClipObjectVolume> NamedVolumes::threshold(const sheet::ComparisonShape& shape,
@@ -163,7 +168,7 @@ NamedVolumes::Found<ClipObjectVolume> NamedVolumes::threshold(const sheet::Compa
         return missing<ClipObjectVolume>(
             unfinished(state, "the clip object " + text, "Computing", thresholdFailureCode(state)));
     }
-    return found(ClipObjectVolume{state.meta->key, compared});
+    return found(ClipObjectVolume{state.meta->key, compared, state.meta});
 }
 
 } // namespace voxsheet::engine

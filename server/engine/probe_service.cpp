@@ -11,7 +11,7 @@ namespace voxsheet::engine {
 
 std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                               const View& view, const CellContents& contents,
-                                              const glm::dvec3& world) const {
+                                              const glm::dvec3& world, const LayersOf& layersOf) const {
     std::vector<ProbeValue> values;
     const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
     for (const auto& [address, cell] : sheet.cells) {
@@ -40,12 +40,32 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
             } else {
                 probe.note = "outside";
             }
+            if (style.technique == sheet::Technique::Raycast && !style.layers.volumes.empty())
+                for (const LayerLook& layer : layersOf(address))
+                    probe.layers.push_back(layerAt(layer, world));
         } catch (const Error& error) {
             probe.note = error.what();
         }
         values.push_back(std::move(probe));
     }
     return values;
+}
+
+LayerValue ProbeService::layerAt(const LayerLook& layer, const glm::dvec3& world) const {
+    LayerValue value;
+    value.name = layer.name;
+    value.unit = layer.meta->fields[static_cast<std::size_t>(layer.shown.field)].unit;
+    // Layers are drawn once, in the box of the cell's own volume.
+    const auto sample =
+        samplePoint(*volumes_, *layer.meta, layer.shown.field, layer.shown.step, PeriodicWindow{}, world);
+    if (!sample) {
+        value.note = "outside";
+        return value;
+    }
+    value.value = sample->value;
+    value.interpolated = sample->interpolated;
+    if (!sample->value) value.note = "no value here";
+    return value;
 }
 
 std::optional<PixelHit> ProbeService::underPixel(const TileSpec& tile, const DatasetMeta& meta,

@@ -7,6 +7,7 @@
 #include "engine/visible_range.h"
 #include "volume/clip_shape_provider.h"
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -19,10 +20,14 @@ public:
     ProbeService(const sheet::KeyTable& keys, std::shared_ptr<const VolumeProvider> volumes)
         : keys_(keys), volumes_(std::make_shared<const ClipShapeProvider>(std::move(volumes))) {}
 
+    /// The volumes that are blended into a cell's picture. May throw: the cell then says why.
+    using LayersOf = std::function<std::vector<LayerLook>(const sheet::Address&)>;
+
     /// One value per cell of the sheet that has a source, in reading order.
+    /// \param layersOf  asked for cells whose style names layers
     [[nodiscard]] std::vector<ProbeValue> atWorld(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                                   const View& view, const CellContents& contents,
-                                                  const glm::dvec3& world) const;
+                                                  const glm::dvec3& world, const LayersOf& layersOf) const;
 
     /// What lies under a pixel of a tile; empty if the ray meets nothing. An isosurface's crossing is one of
     /// level 0, whatever the level that is drawn.
@@ -41,6 +46,7 @@ private:
         VolumeKey key;
         std::shared_ptr<const LevelSamples> samples;
     };
+    [[nodiscard]] LayerValue layerAt(const LayerLook& layer, const glm::dvec3& world) const;
     /// The finest level that is small enough.
     [[nodiscard]] Level levelFor(const DatasetMeta& meta, int field, int step);
     [[nodiscard]] std::shared_ptr<const LevelSamples> samplesOf(const DatasetMeta& meta,

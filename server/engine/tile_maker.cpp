@@ -283,6 +283,8 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
 
 std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look) const {
     std::vector<FurtherVolume> volumes;
+    if (look.clipObject && look.clipObject->meta)
+        volumes.push_back(clipObjectVolume(*look.clipObject->meta, environment_.exactR8Filtering));
     if (const auto& by = look.colouredBy)
         volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step, FloatTexels::Full,
                                         environment_.exactR8Filtering));

@@ -110,7 +110,7 @@ private:
     [[nodiscard]] std::optional<LayerLook> layerLook(CellLook& look, const sheet::VolumeName& name,
                                                      const NamingCell& from,
                                                      const std::shared_ptr<const CellContents>& contents);
-    /// That the picture reads besides the cell's own, clip objects not counted.
+    /// That the picture reads besides the cell's own.
     [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look) const;
     void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
 

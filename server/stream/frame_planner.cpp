@@ -224,7 +224,8 @@ void FramePlanner::drawn(const FramePlan& plan, const PlannedTile& tile, const T
     const auto ms =
         levels_.drawn({needs.volume, needs.work, static_cast<int>(needs.textureBytes.size()), pixels.level,
                        pixelsOf(tile.tile), pixels.renderMs, pixels.uploadMs + pixels.readMs});
-    if (ms) timed_[tile.tile.cell] = {tile.prepared.identity, *ms * kTimedTilePixels / pixelsOf(tile.tile)};
+    if (ms)
+        timed_[tile.tile.cell] = {tile.prepared.identity, *ms * kTimedTilePixels / pixelsOf(tile.tile), true};
 }
 
 void FramePlanner::frameDrawn(const FramePlan& plan, double pixels, double ms) {
@@ -257,20 +258,25 @@ std::string FramePlanner::kindOfWork() const {
 }
 
 bool FramePlanner::rested() {
-    double ms = 0.0;
-    bool whole = !visible_.empty();
-    int coarsest = 0;
+    Redraw redraw;
+    redraw.n = static_cast<int>(visible_.size());
+    bool known = true;
+    bool anyFresh = false;
     for (const PlannedTile& tile : visible_) {
         const auto timed = timed_.find(tile.tile.cell);
-        whole = whole && timed != timed_.end() && timed->second.identity == tile.prepared.identity;
-        if (!whole) break;
-        ms += timed->second.ms;
-        coarsest = std::max(coarsest, tile.prepared.spec->level);
+        known = timed != timed_.end() && timed->second.identity == tile.prepared.identity;
+        if (!known) break;
+        redraw.ms += timed->second.ms;
+        if (!timed->second.fresh) redraw.earlierMs += timed->second.ms;
+        anyFresh = anyFresh || timed->second.fresh;
+        redraw.coarsest = std::max(redraw.coarsest, tile.prepared.spec->level);
     }
-    timed_.clear();
-    if (!whole) return false;
-    levels_.redrawn(
-        {static_cast<int>(visible_.size()), ms, coarsest, kindOfWork(), engine_.residency().residentBytes});
+    for (auto& [cell, timed] : timed_)
+        timed.fresh = false;
+    if (!known || !anyFresh) return false;
+    redraw.kind = kindOfWork();
+    redraw.residentBytes = engine_.residency().residentBytes;
+    levels_.redrawn(redraw);
     return true;
 }
 

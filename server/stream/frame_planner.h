@@ -51,8 +51,9 @@ public:
     void frameDrawn(const FramePlan& plan, double pixels, double ms);
     void pictureSent(const PlannedTile& tile);
     void stateSent(const engine::PreparedTile& tile);
-    /// Nothing is left to draw for the view of the last plan. True when all its cells were redrawn since the
-    /// last rest, and a rule may now change their level: plan again.
+    /// Nothing is left to draw for the view of the last plan. True when some of its cells were redrawn since
+    /// the last rest and what the others took is known: the time-N curve has a new point, and a rule may now
+    /// change levels: plan again.
     [[nodiscard]] bool rested();
     /// What else than their number the time of the cells in the last plan depends on: techniques, and how
     /// large texels are on the screen, to the nearest octave. Redraw::kind.
@@ -67,7 +68,8 @@ private:
     };
     struct Timed {
         std::string identity;
-        double ms = 0.0; ///< in a tile of kTimedTilePixels
+        double ms = 0.0;    ///< in a tile of kTimedTilePixels
+        bool fresh = false; ///< since the last rest
     };
 
     void prepareVisible(const sheet::Workbook& workbook, const ClientView& view, FramePlan& plan);
@@ -90,7 +92,7 @@ private:
     std::map<sheet::Address, Shown> shown_;
     std::map<sheet::Address, int> levelOf_;  ///< as chosen for the last plan
     std::string demanded_;                   ///< what they were chosen for
-    std::map<sheet::Address, Timed> timed_;  ///< drawn at full quality since the last rest
+    std::map<sheet::Address, Timed> timed_;  ///< when last drawn at full quality
     std::vector<WantedVolume> shownVolumes_; ///< as told to the engine last, without neighbours
     std::vector<PlannedTile> visible_;       ///< cells with a picture in the last plan's view
 };

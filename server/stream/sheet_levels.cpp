@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kMostCosts = 8192; ///< volumes and kinds of work; beyond it learning starts anew
 constexpr int kMostLevels = 9;
+constexpr double kExpectedSpread = 0.25; ///< until pictures were drawn again
+constexpr double kSpreadMemory = 0.9;
 constexpr double kCoarserAtMost = 0.9; ///< expected time of a level / that of the next finer one
 
 /// Of the time of a picture at a level that has not been drawn yet, from one that has: a ray takes half the
@@ -28,7 +30,7 @@ std::string inWords(const LevelSettings& settings) {
 
 SheetLevels::SheetLevels(const LevelSettings& settings, std::function<void()> changed)
     : changed_(std::move(changed)), settings_(settings), controller_(ruleOf(settings), kMostLevels),
-      reason_(inWords(settings)) {
+      reason_(inWords(settings)), spread_(kExpectedSpread) {
     validateLevelSettings(settings);
 }
 
@@ -154,6 +156,8 @@ std::optional<double> SheetLevels::drawn(const DrawnPicture& picture) {
     double& known = costs[static_cast<std::size_t>(picture.level)];
     const double measured = picture.renderMs / std::max(1.0, picture.pixels);
     const int before = seen_[{key, picture.level}]++;
+    if (before >= 2 && known > 0.0)
+        spread_ = kSpreadMemory * spread_ + (1.0 - kSpreadMemory) * std::abs(measured / known - 1.0);
     known = before < 2 ? measured : 0.5 * (known + measured);
     if (warm_.insert(picture.work).second) return std::nullopt;
     return picture.renderMs + (before == 0 ? 0.0 : picture.swapMs);
@@ -167,7 +171,12 @@ void SheetLevels::redrawn(const Redraw& redraw) {
         redrawn_.clear();
         kind_ = redraw.kind;
     }
-    controller_.addFrame(redraw.n, redraw.ms);
+    // The spread is a mean deviation: two and a half of them make a 95 % interval. What slowed one of the
+    // earlier pictures may have slowed all, so their doubts add up.
+    if (redraw.earlierMs > 0.0)
+        controller_.addPartialFrame(redraw.n, redraw.ms, 2.5 * spread_ * redraw.earlierMs);
+    else
+        controller_.addFrame(redraw.n, redraw.ms);
     redrawn_[{controller_.level(), redraw.n}] = {redraw.coarsest, redraw.residentBytes};
     newRedraw_ = true;
 }
@@ -180,7 +189,7 @@ std::vector<TimingPoint> SheetLevels::pointsOf(int level) const {
         const auto found = redrawn_.find({level, point.n});
         const Redrawn extra = found == redrawn_.end() ? Redrawn{level, 0} : found->second;
         points.push_back({point.n, extra.coarsest, point.ms, rawSlopeRatio(curve), newestSlopeRatio(curve),
-                          extra.residentBytes});
+                          extra.residentBytes, point.partly});
     }
     return points;
 }

@@ -37,13 +37,15 @@ struct DrawnPicture {
     double swapMs = 0.0; ///< upload and reading
 };
 
-/// A redraw of all n cells on show.
+/// A redraw of all n cells on show, or of some of them.
 struct Redraw {
     int n = 0;
-    double ms = 0.0;  ///< with every tile of kTimedTilePixels
+    double ms = 0.0;  ///< of all n, with every tile of kTimedTilePixels
     int coarsest = 0; ///< level among its cells
     std::string kind; ///< of what else its time depends on: curves of different kinds are not compared
     std::uint64_t residentBytes = 0;
+    /// Part of `ms`: of pictures that were not dirty, from when they were drawn last.
+    double earlierMs = 0.0;
 };
 
 /// Times are stated for tiles of this many pixels (256 x 256), so that a page that fits its tiles to its
@@ -64,6 +66,7 @@ struct TimingPoint {
     std::optional<double> rawRatio;
     std::optional<SlopeRatio> ratio;
     std::uint64_t residentBytes = 0;
+    bool partly = false; ///< from redraws of some cells; no whole one has come yet
 };
 
 struct SheetTimings {
@@ -124,7 +127,8 @@ private:
     bool newRedraw_ = false;
     std::pair<int, std::uint64_t> judged_{0, 0}; ///< N and bytes that the controller was last asked about
     std::string kind_;
-    std::unordered_map<std::string, Costs> costs_;    ///< by volume and work
+    std::unordered_map<std::string, Costs> costs_; ///< by volume and work
+    double spread_; ///< by how much, relatively, pictures of one kind differ from one drawing to the next
     std::map<std::pair<std::string, int>, int> seen_; ///< pictures by volume with work, and level
     std::set<std::string> warm_;                      ///< kinds of work that have been done before
     struct Redrawn {

@@ -74,7 +74,7 @@ public:
         int coarsest = 0;
         for (int i = 0; i < n; ++i)
             coarsest = std::max(coarsest, plan_.tiles[static_cast<std::size_t>(i)].prepared.spec->level);
-        levels_.redrawn({n, ms, coarsest, kind_, engine_.residency().residentBytes});
+        levels_.redrawn({n, ms, coarsest, kind_, engine_.residency().residentBytes, 0.0});
     }
 
 private:

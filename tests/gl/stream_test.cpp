@@ -271,20 +271,26 @@ TEST_F(Stream, PinnedLevelsHoldForThePageAndNotForExports) {
     EXPECT_EQ(tiles_->sheetImage(sheet, {})->level, 1);
 }
 
-TEST_F(Stream, WholeRedrawsGiveTheTimeOfNAndNothingElseDoes) {
+TEST_F(Stream, RedrawsGiveTheTimeOfNAndPartialOnesAWiderInterval) {
     openBalls(3);
     const auto id = hub_->open("Sheet1");
     static_cast<void>(untilRest(id, view(2, 96)));
     EXPECT_TRUE(hub_->levels("Sheet1").timings().points.empty()); // the first pictures wait for shaders
     static_cast<void>(untilRest(id, view(2, 96, 45.0)));
-    static_cast<void>(untilRest(id, view(3, 96, 45.0))); // one cell more is no redraw of three
+    static_cast<void>(untilRest(id, view(3, 96, 45.0))); // one cell more: the other two are as they were
     auto points = hub_->levels("Sheet1").timings().points;
-    ASSERT_EQ(points.size(), 1U);
+    ASSERT_EQ(points.size(), 2U);
     EXPECT_EQ(points[0].n, 2);
+    EXPECT_FALSE(points[0].partly);
+    EXPECT_EQ(points[1].n, 3);
+    EXPECT_TRUE(points[1].partly);
+    EXPECT_GT(points[1].ms.value, points[0].ms.value) << "what the two took, and the third";
+    EXPECT_GT(points[1].ms.high - points[1].ms.low, 0.0);
+    EXPECT_TRUE(untilRest(id, view(3, 96, 45.0)).tiles.empty()) << "and it is at rest";
     static_cast<void>(untilRest(id, view(3, 96, 60.0)));
     points = hub_->levels("Sheet1").timings().points;
     ASSERT_EQ(points.size(), 2U);
-    EXPECT_EQ(points[1].n, 3);
+    EXPECT_FALSE(points[1].partly);
     EXPECT_GT(points[1].ms.value, 0.0);
     EXPECT_GT(points[1].residentBytes, 0U);
 }

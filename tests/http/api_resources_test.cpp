@@ -205,6 +205,10 @@ TEST_F(ApiResources, TwoCellsFusedInOnePicture) {
     const auto bar = getJson(kSheet + "/cells/A1/colourbar?layers=B1&layers.weights=1,0.5");
     EXPECT_EQ(bar.at("layers").at(0).at("name"), "B1");
     EXPECT_EQ(bar.at("layers").at(0).at("weight"), 0.5);
+    const auto probed =
+        getJson(kSheet + "/probe?cell=A1&px=32&py=24&width=64&height=48&layers=B1").at("values").at(0);
+    EXPECT_EQ(probed.at("layers").at(0).at("name"), "B1");
+    EXPECT_TRUE(probed.at("layers").at(0).contains("value"));
     for (const auto* query : {"&layers=C9", "&layers=B1&technique=slices", "&layers=B1&layers.weights=2"}) {
         const auto refused = program_->get(url + query);
         EXPECT_EQ(refused.status, 400) << query;

@@ -38,6 +38,6 @@ export class Levels {
     point(n) {
         const ms = msPerCell * (n + 2 * Math.max(0, n - bendAfter));
         const r = n < 3 ? null : n === bendAfter + 1 ? 3 : 1;
-        return { n, level: 0, ms, ms_low: 0.95 * ms, ms_high: 1.05 * ms, frames: 5, r_raw: r, r, r_low: r && 0.9 * r, r_high: r && 1.1 * r, resident_bytes: 25_000_000 * Math.min(n, bendAfter) };
+        return { n, level: 0, ms, ms_low: 0.95 * ms, ms_high: 1.05 * ms, frames: 5, partly: false, r_raw: r, r, r_low: r && 0.9 * r, r_high: r && 1.1 * r, resident_bytes: 25_000_000 * Math.min(n, bendAfter) };
     }
 }

@@ -4,7 +4,7 @@ import type { TimingPoint } from "../src/api/levels";
 import { axisSteps, inOrder, lines, pointText } from "../src/model/levels";
 
 function point(n: number, level: number, more: Partial<TimingPoint> = {}): TimingPoint {
-    return { n, level, ms: 10 * n, ms_low: 9 * n, ms_high: 11 * n, frames: 5, r_raw: null, r: null, r_low: null, r_high: null, resident_bytes: 4e6, ...more };
+    return { n, level, ms: 10 * n, ms_low: 9 * n, ms_high: 11 * n, frames: 5, partly: false, r_raw: null, r: null, r_low: null, r_high: null, resident_bytes: 4e6, ...more };
 }
 
 test("axis steps are round and few", () => {
@@ -22,5 +22,6 @@ test("points run by N, lines by level", () => {
 
 test("a point in words says what is not known yet, and an unbounded interval", () => {
     assert.match(pointText(point(3, 0, { frames: 1 })), /N = 3, T_N 30\.0 ms \(27\.0 to 33\.0\) from 1 frame, R not known yet, level 0, textures 4 MB/);
+    assert.match(pointText(point(3, 0, { partly: true })), /\(27\.0 to 33\.0\) from redraws of some cells, R/);
     assert.match(pointText(point(3, 0, { r: 1.02, r_low: 0.9, r_high: null, r_raw: 1.4 })), /R 1\.02 \(0\.90 to ∞\), raw R 1\.40/);
 });

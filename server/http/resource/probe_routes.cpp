@@ -22,6 +22,17 @@ nlohmann::json pointJson(const glm::dvec3& point) {
     return nlohmann::json::array({point.x, point.y, point.z});
 }
 
+nlohmann::json layersJson(const std::vector<engine::LayerValue>& layers) {
+    auto list = nlohmann::json::array();
+    for (const auto& layer : layers)
+        list.push_back({{"name", layer.name},
+                        {"value", numberOrNull(layer.value)},
+                        {"interpolated", numberOrNull(layer.interpolated)},
+                        {"unit", layer.unit},
+                        {"note", layer.note}});
+    return list;
+}
+
 nlohmann::json valueJson(const engine::ProbeValue& probe) {
     return {{"cell", sheet::addressName(probe.cell)},
             {"value", numberOrNull(probe.value)},
@@ -30,7 +41,8 @@ nlohmann::json valueJson(const engine::ProbeValue& probe) {
             {"unit", probe.unit},
             {"note", probe.note},
             {"hit", probe.hit.empty() ? nlohmann::json(nullptr) : nlohmann::json(probe.hit)},
-            {"isovalue", numberOrNull(probe.isovalue)}};
+            {"isovalue", numberOrNull(probe.isovalue)},
+            {"layers", layersJson(probe.layers)}};
 }
 
 Response probeAnswer(const nlohmann::json& world, const std::vector<engine::ProbeValue>& probes) {
@@ -126,7 +138,8 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
          .anyStyleKey = true,
          .pool = Pool::Render,
          .answerDoc =
-             "{world, values: [{cell, value, interpolated, index, unit, note, hit, isovalue}]}; hit: of "
+             "{world, values: [{cell, value, interpolated, index, unit, note, hit, isovalue, layers: [{name, "
+             "value, interpolated, unit, note}]}]}; layers: of the fused view; hit: of "
              "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
              "(nothing opaque enough), else null"});
     router.add(

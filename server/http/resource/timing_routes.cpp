@@ -26,6 +26,7 @@ json pointJson(const stream::TimingPoint& point) {
              {"ms_high", point.ms.high},
              {"coverage", point.ms.coverage},
              {"frames", point.ms.count},
+             {"partly", point.partly},
              {"resident_bytes", point.residentBytes},
              {"r_raw", point.rawRatio ? numberOrNull(*point.rawRatio) : json(nullptr)},
              {"r", nullptr},
@@ -178,12 +179,14 @@ void addTimingRoutes(Router& router, const ApiContext& context) {
              [&context](Request& request) {
                  return jsonAnswer(timingsJson(context, sheetName(context, request)));
              },
-         .summary = "The dynamic-resolution state: N, T_N, R, levels of detail, resident bytes. T_N "
-                    "comes from redraws of all cells on show that happened anyway",
+         .summary =
+             "The dynamic-resolution state: N, T_N, R, levels of detail, resident bytes. T_N "
+             "comes from redraws that happened anyway: of all cells on show, or (`partly`, with a wider "
+             "interval, until a whole one comes) of some",
          .answerDoc =
              "{n, shown, t_n, t_n_low, t_n_high, r_raw, r, r_low, r_high, tile, level, levels: [{cell, "
              "level, footprint, pinned}], policy, settings, reason, frame_ms, resident_bytes, "
-             "budget_bytes, …, points: [{n, level, ms, ms_low, ms_high, coverage, frames, r_raw, r, "
+             "budget_bytes, …, points: [{n, level, ms, ms_low, ms_high, coverage, frames, partly, r_raw, r, "
              "r_low, r_high, resident_bytes}]}; times in ms with every tile of `tile` pixels"});
     router.add({.method = "POST",
                 .pattern = "/api/v1/sheets/{sheet}/timings",

@@ -140,6 +140,57 @@ TEST_F(EngineTest, ATileNeedsTheBytesOfItsLayersAndOfWhatColoursItsSurfaces) {
     }
 }
 
+TEST_F(EngineTest, ATileNeedsTheBytesOfItsClipObject) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    const auto further = [&](const std::string& shape) {
+        View view;
+        view.all["clip.shape"] = shape;
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        for (;;) { // the distances of a threshold are computed first
+            const auto tile = engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {});
+            if (tile.spec || std::chrono::steady_clock::now() > deadline) return tile.needs.further;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    };
+    const auto sphere = further("sphere");
+    ASSERT_EQ(sphere.size(), 1U);
+    EXPECT_EQ(sphere[0].textureBytes, (std::vector<std::uint64_t>{81U * 81 * 81 * 4}));
+    const auto threshold = further("A1 > 0.4");
+    ASSERT_EQ(threshold.size(), 1U);
+    EXPECT_EQ(threshold[0].textureBytes.size(), 1U);
+    EXPECT_NE(threshold[0].volume, sphere[0].volume);
+}
+
+TEST_F(EngineTest, TheProbeReadsEveryLayer) {
+    Engine engine(options());
+    engine.importDatasets(
+        {request(volume("a.nrrd", {8, 8, 8}, 10)), request(volume("b.nrrd", {4, 4, 4}, 40))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    engine.apply(
+        sheet::SetStyle{"Sheet1", sheet::Layer::sheet(), {{"layers", std::string("A1; B1")}}, false});
+    const auto inside = engine.probeWorld("", {1.0, 1.0, 1.0});
+    ASSERT_EQ(inside.size(), 2U);
+    ASSERT_EQ(inside[0].layers.size(), 1U) << "a cell that names itself is not blended twice";
+    EXPECT_EQ(inside[0].layers[0].name, "B1");
+    EXPECT_EQ(inside[0].value, 10.0);
+    EXPECT_EQ(inside[0].layers[0].value, 40.0);
+    EXPECT_EQ(inside[0].layers[0].interpolated, 40.0);
+    ASSERT_EQ(inside[1].layers.size(), 1U);
+    EXPECT_EQ(inside[1].layers[0].value, 10.0);
+    const auto beside = engine.probeWorld("", {6.0, 6.0, 6.0}); // B1 ends at 3
+    EXPECT_EQ(beside[0].value, 10.0);
+    EXPECT_FALSE(beside[0].layers[0].value);
+    EXPECT_EQ(beside[0].layers[0].note, "outside");
+    View slices;
+    slices.all["layers"] = sheet::None{};
+    const auto pixel = engine.probePixel("", {0, 0}, {}, {64, 64}, {128, 128});
+    ASSERT_FALSE(pixel.empty());
+    EXPECT_EQ(pixel[0].layers.size(), 1U);
+    EXPECT_TRUE(engine.probePixel("", {0, 0}, slices, {64, 64}, {128, 128})[0].layers.empty());
+}
+
 TEST_F(EngineTest, LayersThatCannotBeBlendedSayWhy) {
     Engine engine(options());
     engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});

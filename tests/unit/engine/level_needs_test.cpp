@@ -33,5 +33,14 @@ TEST(LevelNeeds, AGradientTextureIsTheDrawnVolumesOwn) {
     EXPECT_EQ(lit.textureBytes.at(0), 64U * 32 * 16 * (4 + 8));
 }
 
+TEST(LevelNeeds, AClipObjectStaysAtLevelZero) {
+    const DatasetMeta distances = test::metaOf("d", {64, 32, 16});
+    ASSERT_GT(distances.levels(), 1);
+    const FurtherVolume object = clipObjectVolume(distances, true);
+    EXPECT_EQ(object.textureBytes, (std::vector<std::uint64_t>{64U * 32 * 16 * 4}));
+    EXPECT_EQ(object.volume, furtherVolume(distances, 0, 0, FloatTexels::Full, true).volume)
+        << "a cell that shows the distances shares the texture";
+}
+
 } // namespace
 } // namespace voxsheet::engine

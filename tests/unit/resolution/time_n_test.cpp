@@ -142,5 +142,26 @@ TEST(SlopeFit, BendNeedsPointsOnBothSides) {
     EXPECT_NO_THROW((void)fitBentLine(times.curve(0, 4), 2.0));
 }
 
+TEST(TimeN, PartialFramesCountUntilAWholeOneComes) {
+    TimeN times;
+    times.addPartly(4, 0, 40.0, 5.0);
+    times.addPartly(4, 0, 44.0, 6.0);
+    auto point = times.point(4, 0);
+    ASSERT_TRUE(point);
+    EXPECT_TRUE(point->partly);
+    EXPECT_DOUBLE_EQ(point->ms.value, 44.0);
+    EXPECT_DOUBLE_EQ(point->ms.low, 38.0);
+    EXPECT_DOUBLE_EQ(point->ms.high, 50.0);
+    EXPECT_EQ(point->ms.count, 1) << "a lone point never breaks the rule";
+    EXPECT_NEAR(point->ms.standardError(), 6.0 / 1.96, 0.01) << "and weighs little in a fit";
+    times.add(4, 0, 41.0);
+    times.addPartly(4, 0, 90.0, 1.0);
+    point = times.point(4, 0);
+    EXPECT_FALSE(point->partly);
+    EXPECT_DOUBLE_EQ(point->ms.value, 41.0);
+    EXPECT_THROW(times.addPartly(4, 0, 40.0, -1.0), InvalidInput);
+    EXPECT_THROW(times.addPartly(0, 0, 40.0, 1.0), InvalidInput);
+}
+
 } // namespace
 } // namespace voxsheet

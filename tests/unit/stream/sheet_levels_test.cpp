@@ -144,5 +144,42 @@ TEST_F(SheetLevelsTest, BringingAVolumeInTheFirstTimeIsNoPartOfTheTimeOfN) {
     EXPECT_EQ(levels.drawn(picture), 310.0); // from then on it is swapping
 }
 
+TEST_F(SheetLevelsTest, WhatWasNotDrawnAgainWidensTheInterval) {
+    const auto intervalOf = [&](double earlierMs) {
+        SheetLevels fresh{LevelSettings{}, [] {}};
+        fresh.redrawn({4, 40.0, 0, "raycast", 0, earlierMs});
+        const auto point = fresh.timings().points.at(0);
+        EXPECT_TRUE(point.partly);
+        EXPECT_DOUBLE_EQ(point.ms.value, 40.0);
+        return point.ms.high - point.ms.low;
+    };
+    EXPECT_GT(intervalOf(10.0), 0.0);
+    EXPECT_NEAR(intervalOf(30.0), 3.0 * intervalOf(10.0), 1e-9);
+
+    // Pictures that take the same each time leave little doubt.
+    const DrawnPicture picture{"v", "raycast", 4, 0, kTimedTilePixels, 10.0, 0.0};
+    for (int i = 0; i < 60; ++i)
+        static_cast<void>(levels.drawn(picture));
+    levels.redrawn({4, 40.0, 0, "raycast", 0, 30.0});
+    const auto point = levels.timings().points.at(0);
+    EXPECT_LT(point.ms.high - point.ms.low, 0.05 * intervalOf(30.0));
+}
+
+TEST_F(SheetLevelsTest, GuessesFromPartialRedrawsDoNotBreakTheRule) {
+    LevelSettings slope;
+    slope.policy = LevelPolicy::Slope;
+    levels.setSettings(slope);
+    std::vector<CellOnShow> shown;
+    for (int n = 1; n <= 16; ++n) {
+        auto next = cells().front();
+        next.demand.volume = "n" + std::to_string(n);
+        shown.push_back(next);
+        const double ms =
+            n <= 8 ? 10.0 * n : 80.0 + 20.0 * (n - 8); // as sharp a bend as breaks it when measured
+        levels.redrawn({n, ms, 0, "raycast", 0, 0.9 * ms});
+        EXPECT_EQ(levels.choose(shown, kAmpleBytes, true, false).front(), 0) << n;
+    }
+}
+
 } // namespace
 } // namespace voxsheet::stream

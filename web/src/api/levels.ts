@@ -8,6 +8,8 @@ export interface TimingPoint {
     ms_low: number;
     ms_high: number;
     frames: number;
+    /** No redraw of all n cells yet: put together from redraws of some. */
+    partly: boolean;
     r_raw: number | null;
     r: number | null;
     r_low: number | null;

@@ -224,7 +224,17 @@ export interface LayerBar {
 
 export interface ProbeAnswer {
     world: [number, number, number] | null;
-    values: { cell: string; value: number | null; index?: number[]; unit?: string; note?: string }[];
+    values: ProbeValue[];
+}
+
+export interface ProbeValue {
+    cell: string;
+    value: number | null;
+    index?: number[];
+    unit?: string;
+    note?: string;
+    /** Of the volumes that are blended into the cell's picture. */
+    layers?: { name: string; value: number | null; unit?: string; note?: string }[];
 }
 
 export type LayerTarget =

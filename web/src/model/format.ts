@@ -62,3 +62,18 @@ export function withUnit(text: string, unit: string | null | undefined): string 
 
 /** "run2" before "run10". */
 export const naturalOrder = new Intl.Collator(undefined, { numeric: true, sensitivity: "base" }).compare;
+
+interface Probed {
+    value: number | null;
+    unit?: string;
+    note?: string;
+}
+
+function probedText({ value, unit, note }: Probed): string {
+    return value === null ? note || "no value" : withUnit(formatNumber(value), unit);
+}
+
+/** A cell's own value, then those of the volumes that are blended into its picture. */
+export function probeText(found: Probed & { layers?: (Probed & { name: string })[] }): string {
+    return [probedText(found), ...(found.layers ?? []).map((layer) => `${layer.name}: ${probedText(layer)}`)].join(" · ");
+}

@@ -55,9 +55,10 @@ function interval(low: number | null, high: number | null, digits: number): stri
 }
 
 export function pointText(point: TimingPoint): string {
+    const source = point.partly ? "redraws of some cells" : `${point.frames} ${point.frames === 1 ? "frame" : "frames"}`;
     const parts = [
         `N = ${point.n}`,
-        `T_N ${point.ms.toFixed(1)} ms${interval(point.ms_low, point.ms_high, 1)} from ${point.frames} ${point.frames === 1 ? "frame" : "frames"}`,
+        `T_N ${point.ms.toFixed(1)} ms${interval(point.ms_low, point.ms_high, 1)} from ${source}`,
         point.r === null ? "R not known yet" : `R ${point.r.toFixed(2)}${interval(point.r_low, point.r_high, 2)}`,
     ];
     if (point.r_raw !== null) parts.push(`raw R ${point.r_raw.toFixed(2)}`);

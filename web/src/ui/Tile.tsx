@@ -4,7 +4,7 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { PictureController } from "../app/picture_controller";
 import type { CellState } from "../api/types";
 import { formatAddress, type Address } from "../model/address";
-import { formatNumber, formatPercent, withUnit } from "../model/format";
+import { formatPercent, probeText } from "../model/format";
 import { hasOwnCamera } from "../model/look";
 import { isPlane } from "../model/plane_view";
 import { isSelected, selectCell } from "../model/selection";
@@ -62,8 +62,7 @@ function TileProgress({ progress, label }: { progress: number; label: string }) 
 function ProbeChip({ cell }: { cell: string }) {
     const found = useSelect((state) => state.page.probe?.values.find((value) => value.cell === cell) ?? null);
     if (!found) return null;
-    const text = found.value === null ? found.note || "no value" : withUnit(formatNumber(found.value), found.unit);
-    return <output class="probe-chip">{text}</output>;
+    return <output class="probe-chip">{probeText(found)}</output>;
 }
 
 /** What the stream says about a cell comes with its frames; what the workbook says comes with edits. The newer error wins. */
