@@ -1,6 +1,7 @@
 #include "cli/look_arguments.h"
 
 #include "sheet/commands.h"
+#include "sheet/plane_views.h"
 #include "sheet/style_keys.h"
 #include "sheet/style_presets.h"
 
@@ -33,6 +34,18 @@ void applySetting(engine::Engine& engine, const std::string& sheetName, const st
     engine.apply(edit);
 }
 
+void addPlanes(engine::Engine& engine, const std::string& sheetName) {
+    const auto workbook = engine.snapshot();
+    const sheet::Sheet& sheet =
+        sheetName.empty() ? workbook->sheets.front() : sheet::sheetNamed(*workbook, sheetName);
+    std::vector<sheet::Address> cells;
+    for (const auto& [address, cell] : sheet.cells)
+        if (!cell.source.empty()) cells.push_back(address);
+    if (cells.empty()) return;
+    for (const auto& command : sheet::planesBeside(*workbook, engine.keys(), sheet.name, cells))
+        engine.apply(command);
+}
+
 } // namespace
 
 void addLookArguments(CLI::App& app, LookArguments& arguments) {
@@ -42,12 +55,16 @@ void addLookArguments(CLI::App& app, LookArguments& arguments) {
                    "KEY=VALUE for all cells, or B2:KEY=VALUE for one; repeatable")
         ->take_all()
         ->allow_extra_args(false); // a file may follow
+    app.add_flag("--planes", arguments.planes,
+                 "Axial, coronal and sagittal planes to the right of every cell (below, where that is not "
+                 "free), with one crosshair");
 }
 
 void applyLook(engine::Engine& engine, const std::string& sheetName, const LookArguments& arguments) {
     if (!arguments.preset.empty()) applyPreset(engine, sheetName, arguments.preset);
     for (const auto& setting : arguments.settings)
         applySetting(engine, sheetName, setting);
+    if (arguments.planes) addPlanes(engine, sheetName);
 }
 
 } // namespace voxsheet::cli

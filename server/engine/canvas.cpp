@@ -50,6 +50,26 @@ void Canvas::fill(const PixelRect& area, const glm::vec4& colour) {
     }
 }
 
+void Canvas::line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect& area,
+                  const glm::vec4& colour) {
+    const glm::ivec2 low = glm::max(glm::max(area.low, glm::ivec2(0)), glm::ivec2(glm::min(from, to)) - 1);
+    const glm::ivec2 high = glm::min(glm::min(area.high, size_), glm::ivec2(glm::max(from, to)) + 2);
+    const glm::dvec2 along = to - from;
+    const double length = glm::length(along);
+    if (length <= 0.0) return;
+    for (int y = low.y; y < high.y; ++y) {
+        for (int x = low.x; x < high.x; ++x) {
+            const glm::dvec2 at = glm::dvec2(x, y) + 0.5 - from;
+            const double part = glm::dot(at, along) / length;
+            const double aside = std::abs(at.x * along.y - at.y * along.x) / length;
+            const double beyond = std::max({0.0, -part, part - length});
+            const double cover = std::clamp(1.0 - std::hypot(aside, beyond), 0.0, 1.0);
+            if (cover <= 0.0) continue;
+            blend({x, y}, premultiplied({glm::vec3(colour), colour.w * static_cast<float>(cover)}));
+        }
+    }
+}
+
 void Canvas::put(const TilePixels& picture, glm::ivec2 at) {
     for (int y = std::max(0, -at.y); y < std::min(picture.size.y, size_.y - at.y); ++y) {
         for (int x = std::max(0, -at.x); x < std::min(picture.size.x, size_.x - at.x); ++x) {

@@ -222,9 +222,8 @@ ValueSummary mergeSummaries(const std::vector<ValueSummary>& summaries) {
     return merged;
 }
 
-CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid, glm::ivec2 sizePixels) {
-    const double radius = std::max(boundingRadiusWorld(grid), 1e-300);
-    const sheet::CameraPose pose = sheet::cameraPose(camera, centreWorld(grid), radius);
+CameraSpec resolveCamera(const sheet::CameraStyle& camera, const CameraFrame& frame, glm::ivec2 sizePixels) {
+    const sheet::CameraPose pose = sheet::cameraPose(camera, frame.centreWorld, frame.radiusWorld);
     const double aspect = static_cast<double>(sizePixels.x) / static_cast<double>(sizePixels.y);
     const double narrow = std::min(1.0, aspect);
     CameraSpec spec;
@@ -250,7 +249,7 @@ PeriodicWindow resolvePeriodicWindow(const sheet::PeriodicStyle& style, const Gr
 
 TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, const FieldAndStep& shown,
                      std::shared_ptr<const TransferTable> table, glm::ivec2 sizePixels, int level,
-                     double sampleDistanceFactor) {
+                     double sampleDistanceFactor, const std::optional<CameraFrame>& linked) {
     TileSpec spec;
     spec.dataset = meta.key;
     spec.field = shown.field;
@@ -261,8 +260,10 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.periodic = resolvePeriodicWindow(style.periodic, meta.grid);
     const Grid drawn = drawnGrid(meta.grid, spec.periodic);
     const bool flat = style.technique == sheet::Technique::Plane;
-    spec.camera = flat ? resolvePlaneCamera(style.plane, style.camera, drawn, meta.anatomical, sizePixels)
-                       : resolveCamera(style.camera, drawn, sizePixels);
+    const CameraFrame frame = linked.value_or(ownFrame(drawn));
+    spec.camera =
+        flat ? resolvePlaneCamera(style.plane, style.camera, drawn, meta.anatomical, sizePixels, frame)
+             : resolveCamera(style.camera, frame, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);

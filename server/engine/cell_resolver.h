@@ -2,6 +2,7 @@
 // arguments.
 #pragma once
 
+#include "engine/camera_frame.h"
 #include "engine/colour_map.h"
 #include "engine/default_look.h"
 #include "sheet/style.h"
@@ -9,6 +10,7 @@
 #include "volume/dataset.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,15 +57,17 @@ struct FieldAndStep {
 
 /// `grid`: whose box is drawn (drawnGrid). camera.fov is the vertical angle of pictures wider than high, the
 /// horizontal one of others: what fits, fits in both.
-[[nodiscard]] CameraSpec resolveCamera(const sheet::CameraStyle& camera, const Grid& grid,
+[[nodiscard]] CameraSpec resolveCamera(const sheet::CameraStyle& camera, const CameraFrame& frame,
                                        glm::ivec2 sizePixels);
 
 /// All but what other volumes decide: the clip object, and the isosurfaces (clip_resolver.h,
 /// isosurface_resolver.h).
 /// \param level  smallest level of detail asked for; the style's quality may ask for a coarser one, and its
 /// level is what it says
+/// \param linked  of camera.frame centre and world; not set: the cell's own
 [[nodiscard]] TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta,
                                    const FieldAndStep& shown, std::shared_ptr<const TransferTable> table,
-                                   glm::ivec2 sizePixels, int level, double sampleDistanceFactor);
+                                   glm::ivec2 sizePixels, int level, double sampleDistanceFactor,
+                                   const std::optional<CameraFrame>& linked = {});
 
 } // namespace voxsheet::engine

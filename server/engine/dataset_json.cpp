@@ -117,6 +117,12 @@ json describeBox(const Grid& grid) {
             {"firstSample", vectorJson(glm::dvec3(0.0) - box.low)}};
 }
 
+json describeFrame(const CameraFrame& frame) {
+    return {{"centre", vectorJson(frame.centreWorld)},
+            {"radius", frame.radiusWorld},
+            {"size", frame.sizeWorld ? vectorJson(*frame.sizeWorld) : json(nullptr)}};
+}
+
 json describeHistogram(const DatasetMeta& meta, int field, int step) {
     const bool known =
         field >= 0 && static_cast<std::size_t>(field) < meta.fields.size() && step >= 0 &&

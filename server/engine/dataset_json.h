@@ -1,6 +1,7 @@
 // What a dataset holds, in the words of `voxsheet info --json` and `GET /api/v1/datasets`.
 #pragma once
 
+#include "engine/camera_frame.h"
 #include "volume/dataset.h"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +20,10 @@ namespace voxsheet::engine {
 /// the grid's axes; how many voxels long each edge is, and how many from the first corner the first sample
 /// sits.
 [[nodiscard]] nlohmann::json describeBox(const Grid& grid);
+
+/// {centre, radius, size}: what camera.target and camera.distance are measured from and in, world units; size
+/// of the upright box that planes show, null where it is the cell's own.
+[[nodiscard]] nlohmann::json describeFrame(const CameraFrame& frame);
 
 /// {low, high, counts, mean, min, max, stddev, nan} of one field and step. Throws NotFound if there is none
 /// such.

@@ -148,8 +148,19 @@ std::vector<CellStatus> Engine::cellStatuses(const sheet::Workbook& workbook,
     for (const auto& [address, cell] : workbook.sheets[index].cells) {
         if (cell.source.empty()) continue;
         const CellContent& content = contentAt(*contents, {index, address});
-        statuses.push_back({address, content.state, content.code, content.message,
-                            implementation_->datasets.progress(content), content.meta, content.notes});
+        statuses.push_back({address,
+                            content.state,
+                            content.code,
+                            content.message,
+                            implementation_->datasets.progress(content),
+                            content.meta,
+                            content.notes,
+                            {}});
+        if (content.state != CellState::Ready) continue;
+        const auto linked = implementation_->tiles.frame(workbook, index, address, {}, contents);
+        const auto& style = sheet::resolveStyle(keys(), workbook.sheets[index], address).style;
+        statuses.back().frame =
+            linked.value_or(ownFrame(drawnGrid(content.meta->grid, periodicWindow(style.periodic))));
     }
     return statuses;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/errors.h"
+#include "engine/camera_frame.h"
 #include "engine/cell_state.h"
 #include "engine/dataset_state.h"
 #include "engine/default_look.h"
@@ -89,6 +90,7 @@ struct CellStatus {
     double progress = 1.0;                   ///< Pending: [0, 1)
     std::shared_ptr<const DatasetMeta> meta; ///< Ready: of the dataset or the formula's result
     std::vector<std::string> notes;          ///< what a user should know, one sentence each
+    std::optional<CameraFrame> frame;        ///< Ready: what the camera's lengths refer to
 };
 
 /// Style values that are not in the workbook. `all` stands above the sheet's own values and below those of

@@ -1,6 +1,7 @@
 #include "engine/plane_resolver.h"
 
 #include "engine/box_extent.h"
+#include "engine/crosshair.h"
 #include "engine/unit_vector.h"
 
 #include <algorithm>
@@ -59,8 +60,12 @@ PlaneView planeView(const sheet::PlaneStyle& plane, bool anatomical) {
 PlaneSpec resolvePlane(const sheet::PlaneStyle& plane, const Grid& grid) {
     PlaneSpec spec;
     spec.normal = normalOf(plane);
-    const Extent extent = extentAlong(spec.normal, grid);
-    spec.offset = extent.low + plane.position * extent.length();
+    if (const auto crosshair = crosshairWorld(plane, grid)) {
+        spec.offset = glm::dot(spec.normal, *crosshair);
+    } else {
+        const Extent extent = extentAlong(spec.normal, grid);
+        spec.offset = extent.low + plane.position * extent.length();
+    }
     spec.interpolation = plane.interpolation == sheet::PlaneInterpolation::Nearest
                              ? PlaneInterpolation::Nearest
                              : PlaneInterpolation::Linear;
@@ -68,13 +73,16 @@ PlaneSpec resolvePlane(const sheet::PlaneStyle& plane, const Grid& grid) {
 }
 
 CameraSpec resolvePlaneCamera(const sheet::PlaneStyle& plane, const sheet::CameraStyle& camera,
-                              const Grid& grid, bool anatomical, glm::ivec2 sizePixels) {
+                              const Grid& grid, bool anatomical, glm::ivec2 sizePixels,
+                              const CameraFrame& frame) {
     const PlaneView view = planeView(plane, anatomical);
     const double aspect = static_cast<double>(sizePixels.x) / static_cast<double>(sizePixels.y);
-    const double fitting =
+    double fitting =
         std::max(extentAlong(view.up, grid).length(), extentAlong(view.right, grid).length() / aspect);
-    const double radius = boundingRadiusWorld(grid);
-    const glm::dvec3 target = centreWorld(grid) + camera.targetRadii * radius;
+    if (const auto& size = frame.sizeWorld)
+        fitting = std::max({size->x, size->y, size->z}) / std::min(1.0, aspect);
+    const double radius = frame.radiusWorld;
+    const glm::dvec3 target = frame.centreWorld + camera.targetRadii * radius;
     const glm::dvec3 eye = target + camera.distanceRadii * radius * view.towardsEye;
     const glm::dmat3 viewFromWorldAxes = glm::transpose(glm::dmat3(view.right, view.up, view.towardsEye));
 

@@ -1,6 +1,7 @@
 // From a cell's plane style to a plane in the world of its volume and a camera that faces it.
 #pragma once
 
+#include "engine/camera_frame.h"
 #include "sheet/typed_style.h"
 #include "stages/tile_spec.h"
 #include "volume/grid.h"
@@ -31,9 +32,11 @@ struct PlaneView {
 [[nodiscard]] PlaneSpec resolvePlane(const sheet::PlaneStyle& plane, const Grid& grid);
 
 /// Orthographic. At the default camera.distance the drawn box fits the picture with a narrow margin; half the
-/// distance shows half of that. camera.target moves the picture by what of it lies in the plane; the
-/// camera's angles, field of view and projection mean nothing.
+/// distance shows half of that. A frame with a size shows that size's longest edge instead. camera.target
+/// moves the picture by what of it lies in the plane; the camera's angles, field of view and projection mean
+/// nothing.
 [[nodiscard]] CameraSpec resolvePlaneCamera(const sheet::PlaneStyle& plane, const sheet::CameraStyle& camera,
-                                            const Grid& grid, bool anatomical, glm::ivec2 sizePixels);
+                                            const Grid& grid, bool anatomical, glm::ivec2 sizePixels,
+                                            const CameraFrame& frame);
 
 } // namespace voxsheet::engine

@@ -4,6 +4,7 @@
 #include "engine/axis_ticks.h"
 #include "engine/canvas.h"
 #include "engine/colour_bar.h"
+#include "engine/crosshair.h"
 #include "engine/tile_identity.h"
 #include "engine/unit_text.h"
 
@@ -13,6 +14,9 @@
 namespace voxsheet::engine {
 
 namespace {
+
+/// As on the page.
+constexpr glm::vec4 kCrosshairColour{1.0F, 0.84F, 0.2F, 0.75F};
 
 /// One cell on its way into the picture.
 struct DrawnCell {
@@ -66,6 +70,12 @@ sheet::AddressRange usedRange(const sheet::Sheet& sheet) {
 std::string headerText(const std::map<int, sheet::Header>& headers, int line, const std::string& name) {
     const auto found = headers.find(line);
     return found == headers.end() || found->second.title.empty() ? name : name + "  " + found->second.title;
+}
+
+/// Of a plane, its picture's identity has only what lies along the normal.
+std::string crosshairText(const sheet::ResolvedStyle& resolved) {
+    return sheet::styleValueText(resolved.values.at("plane.crosshair").value) +
+           sheet::styleValueText(resolved.values.at("plane.units").value);
 }
 
 std::string fusedText(const CellLook& look) {
@@ -169,6 +179,7 @@ private:
             if (cell.tile.progress < 1.0) image_.final = false;
             if (!cell.tile.note.empty())
                 image_.notes.push_back("cell " + sheet::addressName(cell.address) + ": " + cell.tile.note);
+            if (cell.look) identity_ += crosshairText(cell.look->resolved);
             identity_ += "\n" + cell.tile.identity + std::to_string(static_cast<int>(cell.annotations)) +
                          (cell.cell != nullptr ? sheet::cellTitle(*cell.cell) : "");
         }
@@ -212,7 +223,10 @@ private:
         const PixelRect& area = layout_.pictures[index];
         if (picture != nullptr && picture->error.empty()) {
             canvas.put(*picture, area.low);
-            if (cell.annotations == sheet::Annotations::All) drawColourBar(canvas, cell, area);
+            if (cell.annotations == sheet::Annotations::All) {
+                drawCrosshair(canvas, cell, area);
+                drawColourBar(canvas, cell, area);
+            }
         } else {
             canvas.fill(area, cell.background);
             drawState(canvas, cell, area, picture);
@@ -252,6 +266,15 @@ private:
             inside.low.y += font * 5 / 2;
         }
         if (!sentence.empty()) canvas.paragraph(inside, sentence, font, colours.text);
+    }
+
+    static void drawCrosshair(Canvas& canvas, const DrawnCell& cell, const PixelRect& area) {
+        const Grid drawn = drawnGrid(cell.look->meta->grid, cell.tile.spec->periodic);
+        const auto crosshair = crosshairWorld(cell.look->resolved.style.plane, drawn);
+        if (!crosshair) return;
+        for (const PixelLine& line : crosshairLines(*cell.tile.spec, drawn, *crosshair))
+            canvas.line(glm::dvec2(area.low) + line.from, glm::dvec2(area.low) + line.to, area,
+                        kCrosshairColour);
     }
 
     /// On the picture's right edge: the colours from low to high, round numbers, isovalues, and the unit.

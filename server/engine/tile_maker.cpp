@@ -59,6 +59,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     if (!look.meta) throw InternalError("cell " + sheet::addressName(cell), "it has nothing to show");
     const sheet::TypedStyle& style = look.resolved.style;
     look.shown = chooseField(style.field, style.timeStep, *look.meta);
+    look.frame = frame(workbook, sheetIndex, cell, view, contents);
     look.sharedRange = style.range.mode == sheet::RangeMode::Shared;
     const double path = boxPathUnitLengths(look.meta->grid);
     const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
@@ -194,6 +195,51 @@ TileMaker::sharedSummary(const sheet::Workbook& workbook, std::size_t sheetIndex
     return merged;
 }
 
+std::optional<CameraFrame> TileMaker::frame(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                            const sheet::Address& cell, const View& view,
+                                            const std::shared_ptr<const CellContents>& contents) {
+    const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
+    const sheet::TypedStyle style =
+        sheet::resolveStyle(keys_, sheet, cell, {view.all, view.cells, view.request}).style;
+    const sheet::FrameMode mode = style.camera.frame;
+    if (mode == sheet::FrameMode::Fit) return std::nullopt;
+    const Grid own =
+        drawnGrid(contentAt(*contents, {sheetIndex, cell}).meta->grid, periodicWindow(style.periodic));
+    const char* key = "camera.frame";
+    const bool overridden = view.all.contains(key) || view.request.contains(key);
+    if (!overridden && sheet::resolveStyle(keys_, sheet, cell).style.camera.frame == mode) {
+        const std::lock_guard lock(mutex_);
+        if (frames_.version != workbook.version || frames_.sheetIndex != sheetIndex ||
+            frames_.contents != contents)
+            frames_ = {workbook.version, sheetIndex, contents, {}};
+        auto found = frames_.bounds.find(mode);
+        if (found == frames_.bounds.end()) {
+            auto bounds = boundsOf(framedGrids(workbook, sheetIndex, mode, {}, *contents));
+            found = frames_.bounds.emplace(mode, bounds).first;
+        }
+        return linkedFrame(mode, own, found->second);
+    }
+    auto grids = framedGrids(workbook, sheetIndex, mode, view, *contents);
+    grids.push_back(own);
+    return linkedFrame(mode, own, boundsOf(grids));
+}
+
+std::vector<Grid> TileMaker::framedGrids(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                         sheet::FrameMode mode, const View& view,
+                                         const CellContents& contents) const {
+    const sheet::Sheet& sheet = workbook.sheets[sheetIndex];
+    std::vector<Grid> grids;
+    for (const auto& [address, cell] : sheet.cells) {
+        const CellContent& content = contentAt(contents, {sheetIndex, address});
+        if (content.state != CellState::Ready) continue;
+        const sheet::TypedStyle style =
+            sheet::resolveStyle(keys_, sheet, address, {view.all, view.cells, view.request}).style;
+        if (style.camera.frame == mode)
+            grids.push_back(drawnGrid(content.meta->grid, periodicWindow(style.periodic)));
+    }
+    return grids;
+}
+
 std::vector<ValueSummary> TileMaker::sharingSummaries(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                                       const CellContents& contents,
                                                       const SharedQuantity& quantity) {
@@ -255,7 +301,7 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
     }
     const sheet::TypedStyle& style = look.resolved.style;
     TileSpec spec = resolveTile(style, *look.meta, look.shown, cache_.table(look.transfer.function),
-                                quality.sizePixels, quality.level, quality.sampleDistanceFactor);
+                                quality.sizePixels, quality.level, quality.sampleDistanceFactor, look.frame);
     if (look.clipObject)
         spec.clip.object =
             resolveClipObject(style.clip, *look.clipObject, drawnGrid(look.meta->grid, spec.periodic));

@@ -43,6 +43,7 @@ struct CellLook {
     std::string note;          ///< PreparedTile::note
     std::shared_ptr<const DatasetMeta> meta;
     bool sharedRange = false;
+    std::optional<CameraFrame> frame; ///< not set: the cell's own
     std::optional<ClipObjectVolume> clipObject;
     std::optional<ColouringLook> colouredBy;
     std::vector<LayerLook> layers;
@@ -85,6 +86,10 @@ public:
                                        const sheet::Address& cell, const View& view,
                                        const TileQuality& quality,
                                        const std::shared_ptr<const CellContents>& contents);
+    /// Of the cell, which must be Ready; not set: its own (camera.frame fit).
+    [[nodiscard]] std::optional<CameraFrame> frame(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                                   const sheet::Address& cell, const View& view,
+                                                   const std::shared_ptr<const CellContents>& contents);
     /// As Engine::atLevel.
     [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
 
@@ -98,6 +103,10 @@ private:
                                                              std::size_t sheetIndex,
                                                              const CellContents& contents,
                                                              const SharedQuantity& quantity);
+    /// What the Ready cells of the sheet draw whose camera.frame is `mode`.
+    [[nodiscard]] std::vector<Grid> framedGrids(const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                                sheet::FrameMode mode, const View& view,
+                                                const CellContents& contents) const;
     /// Without the volumes that the style names.
     [[nodiscard]] CellLook ownLook(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                    const sheet::Address& cell, const View& view,
@@ -125,8 +134,15 @@ private:
         std::shared_ptr<const CellContents> contents;
         std::map<SharedQuantity, std::shared_ptr<const ValueSummary>> summaries;
     };
+    struct SharedFrames {
+        std::uint64_t version = 0;
+        std::size_t sheetIndex = 0;
+        std::shared_ptr<const CellContents> contents;
+        std::map<sheet::FrameMode, FrameBounds> bounds;
+    };
     std::mutex mutex_;
     SharedRange shared_;
+    SharedFrames frames_;
     TileEnvironment environment_;
 };
 

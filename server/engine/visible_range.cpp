@@ -20,6 +20,7 @@ struct Lattice {
     [[nodiscard]] glm::dvec3 at(int i, int j, int k) const { return first + edges * glm::dvec3(i, j, k); }
 };
 
+/// \param grid  placed (volume/periodic_window.h)
 Lattice latticeOf(const Grid& grid, int level) {
     Lattice lattice;
     lattice.dims = levelDims(grid.dims, level);
@@ -77,6 +78,38 @@ std::pair<int, int> keptPart(const std::vector<HalfSpace>& spaces, const glm::dv
     return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high))};
 }
 
+/// A periodic volume's samples stand again one period further, as often as the drawn box holds them; the box
+/// itself begins up to a period after its first sample.
+std::vector<glm::dvec3> periodOffsets(const Grid& placed, const PeriodicWindow& window) {
+    glm::ivec3 first(0);
+    glm::ivec3 last(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!placed.periodic[axis]) continue;
+        first[axis] = -1;
+        last[axis] = window.replicate[axis];
+    }
+    const glm::dmat3 edges(placed.worldFromIndex);
+    std::vector<glm::dvec3> offsets;
+    for (int c = first.z; c <= last.z; ++c)
+        for (int b = first.y; b <= last.y; ++b)
+            for (int a = first.x; a <= last.x; ++a)
+                offsets.push_back(edges * (glm::dvec3(a, b, c) * glm::dvec3(placed.dims)));
+    return offsets;
+}
+
+/// Only where samples stand outside the drawn box at all.
+void addBox(std::vector<HalfSpace>& spaces, const Grid& drawn) {
+    if (!drawn.periodic.x && !drawn.periodic.y && !drawn.periodic.z) return;
+    constexpr double tolerance = 1e-6; // voxels
+    const IndexBox box = boxIndex(drawn);
+    const glm::dmat4 rows = glm::transpose(glm::inverse(drawn.worldFromIndex));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!drawn.periodic[axis]) continue;
+        spaces.push_back(rows[axis] - HalfSpace(0, 0, 0, box.low[axis] - tolerance));
+        spaces.push_back(HalfSpace(0, 0, 0, box.high[axis] + tolerance) - rows[axis]);
+    }
+}
+
 } // namespace
 
 std::optional<ValueExtremes> visibleRange(const TileSpec& tile, const DatasetMeta& meta,
@@ -85,31 +118,37 @@ std::optional<ValueExtremes> visibleRange(const TileSpec& tile, const DatasetMet
     while (key.level + 1 < meta.levels() &&
            sampleCount(levelDims(meta.grid.dims, key.level)) > kVisibleSamples)
         ++key.level;
-    const Lattice lattice = latticeOf(meta.grid, key.level);
+    const Grid placed = placedGrid(meta.grid, tile.periodic);
+    const Lattice lattice = latticeOf(placed, key.level);
     std::vector<HalfSpace> spaces = pictureEdges(tile.camera, tile.sizePixels);
     const bool plane = tile.technique == Technique::Plane;
     if (plane) addSlab(spaces, tile.plane, lattice);
     for (const ClipPlane& clip : tile.clip.planes)
         spaces.emplace_back(clip.normal, -clip.offset);
+    addBox(spaces, drawnGrid(meta.grid, tile.periodic));
+    const std::vector<glm::dvec3> offsets = periodOffsets(placed, tile.periodic);
+    const bool cuts = object != nullptr && tile.clip.object && !plane;
 
     ValueExtremes range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     const double step = glm::length(lattice.edges[0]);
     for (int k = 0; k < lattice.dims.z; ++k) {
         std::vector<double> slice; // Read where something of it is kept.
         for (int j = 0; j < lattice.dims.y; ++j) {
-            const glm::dvec3 start = lattice.at(0, j, k);
-            const auto [first, last] = keptPart(spaces, start, lattice.edges[0], lattice.dims.x);
-            if (first > last) continue;
-            if (slice.empty()) slice = readValues(volumes, meta, key, k, 1);
-            std::optional<ObjectCut> cut;
-            if (object != nullptr && tile.clip.object && !plane)
-                cut.emplace(Ray{start, lattice.edges[0] / step}, *tile.clip.object, *object);
-            const auto row = static_cast<std::size_t>(j) * static_cast<std::size_t>(lattice.dims.x);
-            for (int i = first; i <= last; ++i) {
-                const double value = slice[row + static_cast<std::size_t>(i)];
-                if (!std::isfinite(value) || (cut && !cut->keeps(i * step))) continue;
-                range.min = std::min(range.min, value);
-                range.max = std::max(range.max, value);
+            for (const glm::dvec3& offset : offsets) {
+                const glm::dvec3 start = lattice.at(0, j, k) + offset;
+                const auto [first, last] = keptPart(spaces, start, lattice.edges[0], lattice.dims.x);
+                if (first > last) continue;
+                if (slice.empty()) slice = readValues(volumes, meta, key, k, 1);
+                std::optional<ObjectCut> cut;
+                if (cuts) cut.emplace(Ray{start, lattice.edges[0] / step}, *tile.clip.object, *object);
+                const double* row =
+                    slice.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(lattice.dims.x);
+                for (int i = first; i <= last; ++i) {
+                    const double value = row[i];
+                    if (!std::isfinite(value) || (cut && !cut->keeps(i * step))) continue;
+                    range.min = std::min(range.min, value);
+                    range.max = std::max(range.max, value);
+                }
             }
         }
     }

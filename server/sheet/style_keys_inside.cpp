@@ -52,11 +52,24 @@ void addPlaneKeys(std::vector<KeySpec>& keys) {
     normal.max = 1e6;
     keys.push_back(when(std::move(normal), "plane.axis", {"custom"}));
     keys.push_back(when(number("plane.position", "of the box", 0, 1, 0.5, group,
-                               "Where the plane lies: 0 to 1 through the drawn box along the normal."),
+                               "Where the plane lies: 0 to 1 through the drawn box along the normal. With a "
+                               "crosshair it passes through that instead."),
                         "technique", plane));
     keys.push_back(when(choice("plane.interpolation", {"linear", "nearest"}, "linear", group,
                                "Values between samples, or the samples as they are, voxel by voxel."),
                         "technique", plane));
+    const std::string crosshairs = "Crosshair";
+    KeySpec crosshair = withNone(typed(
+        "plane.crosshair", KeyType::Vector3, None{}, crosshairs, "vector",
+        "The point that planes pass through, in all cells that are linked, drawn as lines on planes and "
+        "volumes; none: planes lie at plane.position. Fractions along the world's axes of the drawn box, "
+        "so that different volumes stay linked, or world coordinates (plane.units)."));
+    crosshair.min = -kLargest;
+    crosshair.max = kLargest;
+    keys.push_back(std::move(crosshair));
+    keys.push_back(
+        choice("plane.units", {"fraction", "world"}, "fraction", crosshairs,
+               "Of plane.crosshair: fractions of each cell's own box, or one place in the world."));
 }
 
 void addLayerKeys(std::vector<KeySpec>& keys) {

@@ -48,6 +48,12 @@ void addCamera(std::vector<KeySpec>& keys) {
                "the point looked at."));
     keys.push_back(choice("camera.projection", {"perspective", "orthographic"}, "perspective", group,
                           "Perspective, or parallel lines of sight."));
+    keys.push_back(choice(
+        "camera.frame", {"fit", "centre", "world"}, "fit", group,
+        "What distance and target refer to: the cell's own centre and size (fit: every volume fills its "
+        "picture); its own centre and the largest size of the cells that are linked so (centre: one scale "
+        "for "
+        "all); or one centre and size for all of them (world: every cell shows the same place)."));
     for (std::size_t i = first; i < keys.size(); ++i)
         keys[i].scope = KeyScope::View;
 }

@@ -84,6 +84,8 @@ constexpr Words3 kGradients{"auto", "texture", "onthefly"};
 constexpr Words2 kLightFrames{"view", "world"};
 constexpr Words2 kTextureFormats{"auto", "half"};
 constexpr Words4 kPlaneAxes{"axial", "coronal", "sagittal", "custom"};
+constexpr Words3 kFrames{"fit", "centre", "world"};
+constexpr Words2 kPlaneUnits{"fraction", "world"};
 constexpr Words2 kPlaneInterpolations{"linear", "nearest"};
 
 CameraStyle cameraOf(const Reader& read) {
@@ -95,6 +97,7 @@ CameraStyle cameraOf(const Reader& read) {
     camera.targetRadii = read.get<glm::dvec3>("camera.target");
     camera.fovDegrees = read.get<double>("camera.fov");
     camera.projection = read.choice<Projection>("camera.projection", kProjections);
+    camera.frame = read.choice<FrameMode>("camera.frame", kFrames);
     return camera;
 }
 
@@ -163,6 +166,8 @@ PlaneStyle planeOf(const Reader& read) {
     plane.normal = read.get<glm::dvec3>("plane.normal");
     plane.position = read.get<double>("plane.position");
     plane.interpolation = read.choice<PlaneInterpolation>("plane.interpolation", kPlaneInterpolations);
+    plane.crosshair = read.find<glm::dvec3>("plane.crosshair");
+    plane.units = read.choice<PlaneUnits>("plane.units", kPlaneUnits);
     return plane;
 }
 

@@ -22,8 +22,15 @@ enum class RangeMode { Auto, Own, Shared, Fixed, Percentile, Symmetric };
 enum class Quality { Full, Half, Quarter, Eighth };
 enum class Annotations { None, Names, All };
 
-/// Lengths in bounding radii of the cell's own dataset about its own centre, so that heads and crystals can
-/// be linked.
+/// Whose centre and size the camera's lengths refer to.
+enum class FrameMode {
+    Fit,    ///< the cell's own
+    Centre, ///< its own centre, and the largest size of the cells with this mode
+    World   ///< one centre and size for all of them
+};
+
+/// Lengths in bounding radii about a centre, by default the cell's own, so that heads and crystals can be
+/// linked.
 struct CameraStyle {
     double azimuthDegrees = 0.0;
     double elevationDegrees = 0.0; ///< [-90, 90]
@@ -32,6 +39,7 @@ struct CameraStyle {
     glm::dvec3 targetRadii{0.0}; ///< offset of the looked-at point from the centre, along the world axes
     double fovDegrees = 30.0;    ///< full vertical angle
     Projection projection = Projection::Perspective;
+    FrameMode frame = FrameMode::Fit;
     bool operator==(const CameraStyle&) const = default;
 };
 
@@ -127,12 +135,17 @@ struct LayersStyle {
 enum class PlaneAxis { Axial, Coronal, Sagittal, Custom };
 enum class PlaneInterpolation { Linear, Nearest };
 
+/// Of the crosshair: fractions of the drawn box's extents along the world's axes, or world coordinates.
+enum class PlaneUnits { Fraction, World };
+
 /// The cut that technique plane shows.
 struct PlaneStyle {
     PlaneAxis axis = PlaneAxis::Axial;
     glm::dvec3 normal{0.0, 0.0, 1.0}; ///< Custom: along the world axes, not zero, of any length
     double position = 0.5; ///< from 0 at the drawn box's first corner along the normal to 1 at its last
     PlaneInterpolation interpolation = PlaneInterpolation::Linear;
+    std::optional<glm::dvec3> crosshair; ///< set: the plane passes through it, wherever `position` is
+    PlaneUnits units = PlaneUnits::Fraction;
     bool operator==(const PlaneStyle&) const = default;
 };
 

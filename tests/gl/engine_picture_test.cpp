@@ -198,6 +198,38 @@ TEST_F(EnginePicture, PickingMeetsWhatThePictureShows) {
     }
 }
 
+TEST_F(EnginePicture, ExportedSheetsShowTheCrosshairWhereItLies) {
+    open({ball("ball.nrrd", 32)});
+    SheetImageRequest request;
+    request.sizePixels = {300, 300};
+    request.view.all["technique"] = std::string("plane");
+    request.view.all["transfer.map"] = std::string("grey");
+    const SheetImage without = engine->renderSheet(request);
+    request.view.all["plane.crosshair"] = glm::dvec3(0.5, 0.75, 0.5);
+    const SheetImage with = engine->renderSheet(request);
+    EXPECT_NE(with.identity, without.identity);
+    const auto yellowIn = [](const TilePixels& picture, int x, int y) {
+        const unsigned char* p = pixel(picture, x, y);
+        return p[0] > p[2] + 30 && p[1] > p[2] + 30;
+    };
+    // Rows that are yellow at the picture's left and right, columns that are so at its top and bottom.
+    std::vector<int> rows;
+    std::vector<int> columns;
+    for (int at = 40; at < 290; ++at) {
+        if (yellowIn(with.pixels, 30, at)) rows.push_back(at);
+        if (yellowIn(with.pixels, at, 290)) columns.push_back(at);
+    }
+    ASSERT_FALSE(rows.empty());
+    ASSERT_FALSE(columns.empty());
+    EXPECT_LE(rows.size(), 2U) << "one smooth line";
+    EXPECT_LE(columns.size(), 2U);
+    EXPECT_LT(rows.front(), columns.front()) << "a quarter of the box above the middle, which x is at";
+    for (int at = 40; at < 290; ++at)
+        EXPECT_FALSE(yellowIn(without.pixels, 30, at) || yellowIn(without.pixels, at, 290));
+    request.annotate = false;
+    EXPECT_FALSE(yellowIn(engine->renderSheet(request).pixels, 150, 290)) << "an annotation";
+}
+
 TEST_F(EnginePicture, AClipObjectMovesByItsMatrixAloneAndOneTextureServesAllCells) {
     open({ball("a.nrrd", 24), ball("b.nrrd", 24)});
     SheetImageRequest request;

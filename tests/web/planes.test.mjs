@@ -1,7 +1,8 @@
-// Planes: stepping by wheel and keys, linked over cells; moving and zooming them by keys.
+// Planes: stepping by wheel and keys, linked over cells; moving and zooming them by keys; three of them beside a volume, with
+// one crosshair.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { look, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle } from "./page.mjs";
+import { look, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
 import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
 import { writeBalls } from "./volumes.mjs";
 
@@ -125,5 +126,105 @@ test("Ctrl + wheel and Shift + wheel zoom, arrows move the picture, and nothing 
     await page.keyboard.press("r");
     await settled(page, cells);
     assert.deepEqual(await hashes(), start);
+});
+
+const views = ["A1", "A2", "A3", "A4"];
+const near = (actual, expected, tolerance) =>
+    actual.forEach((part, i) => assert.ok(Math.abs(part - expected[i]) < tolerance, `${actual} against ${expected}`));
+
+async function clickAt(cell, x, y, modifiers = []) {
+    const box = await picture(cell).boundingBox();
+    await picture(cell).click({ position: { x: x * box.width, y: y * box.height }, modifiers });
+}
+
+test("one key shows the selected volumes as three planes, too; one undo takes them back", async () => {
+    await select(page, "A1");
+    await page.locator('[data-title-of="B1"]').click({ modifiers: ["Shift"] });
+    await page.keyboard.press("p");
+    await page.locator('[data-cell="B4"][data-state="ok"]').waitFor();
+    await settled(page, [...views, "B1", "B2", "B3", "B4"]);
+    const techniques = await Promise.all(views.map((cell) => valueOf(cell, "technique")));
+    assert.deepEqual(techniques, ["raycast", "plane", "plane", "plane"], "what showed a plane is a volume again");
+    const axes = await Promise.all(views.slice(1).map((cell) => valueOf(cell, "plane.axis")));
+    assert.deepEqual(axes, ["axial", "coronal", "sagittal"]);
+    assert.deepEqual(await valueOf("B3", "plane.crosshair"), [0.5, 0.5, 0.5]);
+    for (const cell of [...views, "B4"]) assert.equal(await page.locator(`[data-crosshair="${cell}"]`).count(), 1, cell);
+    await undo();
+    await page.locator('[data-cell="A2"]').waitFor({ state: "detached" });
+    assert.equal(await valueOf("A1", "technique"), "plane");
+    await page.getByRole("button", { name: "Redo" }).click();
+    await page.locator('[data-cell="B4"][data-state="ok"]').waitFor();
+    await settled(page, views);
+});
+
+test("a click on a plane takes the crosshair there, and the other planes with it", async () => {
+    const before = await Promise.all(views.map((cell) => look(page, cell)));
+    const half = [0.5, 0.5, 0.5];
+    await clickAt("A2", 0.5, 0.3);
+    const value = await waitForStyle(page, "A1", "plane.crosshair", half);
+    assert.equal((await styleOf(page, "A4", "plane.crosshair")).origin, "sheet");
+    assert.deepEqual(await valueOf("B4", "plane.crosshair"), value, "linked over the volumes");
+    // Axial: x to the right, y up; the box fits with a margin of 4 %.
+    near(value, [0.5, 0.5 + 0.2 * 1.04, 0.5], 0.02);
+    await settled(page, views);
+    const after = await Promise.all(views.map((cell) => look(page, cell)));
+    assert.equal(after[1].hash, before[1].hash, "the plane that was pressed stays");
+    assert.notEqual(after[2].hash, before[2].hash, "the coronal plane moves");
+    assert.equal(after[3].hash, before[3].hash, "the sagittal plane does not: x is what it was");
+    const line = page.locator('[data-crosshair="A2"] line').first();
+    const height = (await picture("A2").boundingBox()).height;
+    assert.ok(Math.abs(Number(await line.getAttribute("y1")) - 0.3 * height) < 2, "its line is where the pointer was");
+    await undo();
+    await waitForStyle(page, "A1", "plane.crosshair", value);
+    assert.deepEqual(await valueOf("A1", "plane.crosshair"), half);
+});
+
+test("wheel and brackets move the crosshair along the plane's normal", async () => {
+    await wheel("A4", -2);
+    const value = await waitForStyle(page, "A1", "plane.crosshair", [0.5, 0.5, 0.5]);
+    near(value, [0.5 + 2 / (size - 1), 0.5, 0.5], 1e-6);
+    assert.equal(await valueOf("A4", "plane.position"), 0.5);
+    await select(page, "A3");
+    await picture("A3").focus();
+    await page.keyboard.press("[");
+    const next = await waitForStyle(page, "A1", "plane.crosshair", value);
+    near(next, [value[0], 0.5 - 1 / (size - 1), 0.5], 1e-6);
+});
+
+test("x takes the crosshair to what lies under the pointer, in a volume too; Shift + x turns it off", async () => {
+    const before = await valueOf("A1", "plane.crosshair");
+    const at = await middleOf(picture("A1"));
+    await page.mouse.move(at.x + 3, at.y + 3);
+    await page.mouse.move(at.x, at.y);
+    await waitUntil(page, () => window.voxsheet.store.get().page.probe?.world);
+    const world = await page.evaluate(() => window.voxsheet.store.get().page.probe.world);
+    await page.keyboard.press("x");
+    const value = await waitForStyle(page, "A1", "plane.crosshair", before);
+    near(value, world.map((part) => part / (size - 1)), 0.02);
+    await page.keyboard.press("Shift+X");
+    await waitForStyle(page, "A1", "plane.crosshair", value);
+    assert.equal(await valueOf("A1", "plane.crosshair"), "none");
+    assert.equal(await page.locator("[data-crosshair]").count(), 0);
+    await settled(page, views);
+    const [x, y, z] = await Promise.all(["x", "y", "z"].map((axis) => page.getByLabel(`plane.crosshair ${axis}`).inputValue()));
+    assert.deepEqual([x, y, z], ["", "", ""]);
+    await page.getByLabel("plane.crosshair y").fill("0.25");
+    await page.getByLabel("plane.crosshair y").press("Enter");
+    await waitForStyle(page, "A1", "plane.crosshair", "none");
+    assert.deepEqual(await valueOf("A1", "plane.crosshair"), [0, 0.25, 0]);
+});
+
+test("linked cells of different size share a scale, or a place, by camera.frame", async () => {
+    const frameOf = (cell) =>
+        page.evaluate((name) => window.voxsheet.store.get().book.book.sheets[0].cells.find((each) => each.cell === name).frame, cell);
+    assert.equal((await frameOf("A1")).size, null);
+    await setScope(page, "sheet");
+    await page.locator('[data-group="Camera"] h3 button').click();
+    await page.locator("#key-camera-frame").selectOption("world");
+    await waitForOrigin(page, "camera.frame", "sheet");
+    const [a, b] = [await frameOf("A1"), await frameOf("B1")];
+    assert.deepEqual(a, b);
+    assert.deepEqual(a.size, [size - 1, size - 1, size - 1], "both balls have one box");
+    await settled(page, views);
     assert.deepEqual(page.problems, []);
 });

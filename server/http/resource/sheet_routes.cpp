@@ -5,6 +5,7 @@
 #include "http/resource/workbook_state.h"
 #include "http/route/json_answer.h"
 #include "sheet/commands.h"
+#include "sheet/plane_views.h"
 
 #include <algorithm>
 #include <set>
@@ -109,6 +110,17 @@ Response clearOverrides(const ApiContext& context, const Request& request) {
     return editAnswer(applyTogether(context.engine, commands));
 }
 
+Response makePlanes(const ApiContext& context, const Request& request) {
+    const auto body = jsonBody(request);
+    allowMembers(body, {"cells"});
+    const auto workbook = context.engine.snapshot();
+    std::vector<sheet::Address> cells;
+    for (const auto& cell : textList(body, "cells"))
+        cells.push_back(sheet::parseAddress(cell));
+    return editAnswer(applyTogether(context.engine, sheet::planesBeside(*workbook, context.engine.keys(),
+                                                                        request.param("sheet"), cells)));
+}
+
 sheet::StylePatch asPatch(const sheet::StyleMap& style) {
     sheet::StylePatch patch;
     for (const auto& [key, value] : style)
@@ -153,6 +165,15 @@ void addSheetRoutes(Router& router, const ApiContext& context) {
                 .summary = "Resets keys wherever a column, row or cell overrides them for the given cells",
                 .bodyType = "application/json",
                 .bodyDoc = "{keys: [KEY], cells?: [\"A1\"]}",
+                .bodyBudgetBytes = kBodyBytes,
+                .answerDoc = "{version, hidden}"});
+    router.add({.method = "POST",
+                .pattern = "/api/v1/sheets/{sheet}/planes",
+                .handler = [&context](Request& request) { return makePlanes(context, request); },
+                .summary = "Shows each of the cells as axial, coronal and sagittal planes, too, in the three "
+                           "cells to the right or below, linked by a crosshair (one undo step)",
+                .bodyType = "application/json",
+                .bodyDoc = "{cells: [\"A1\"]}",
                 .bodyBudgetBytes = kBodyBytes,
                 .answerDoc = "{version, hidden}"});
     router.add({.method = "POST",

@@ -65,6 +65,8 @@ nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
         const auto window = engine::periodicWindow(style.periodic);
         out["box"] = engine::describeBox(drawnGrid(status->meta->grid, window));
     }
+    out["frame"] = nullptr;
+    if (ready && status->frame) out["frame"] = engine::describeFrame(*status->frame);
     if (cell.isDataset()) out["dataset"] = cell.source;
     if (status == nullptr) return out;
     out["code"] = status->code;

@@ -155,7 +155,7 @@ TEST_F(CellResolver, TheWholeVolumeIsInThePictureFromEverySideAndInEveryShape) {
             for (int azimuth = 0; azimuth < 360; azimuth += 45) {
                 const auto resolved = style(
                     {{"camera.projection", projection}, {"camera.azimuth", static_cast<double>(azimuth)}});
-                const CameraSpec camera = resolveCamera(resolved.style.camera, meta.grid, size);
+                const CameraSpec camera = resolveCamera(resolved.style.camera, ownFrame(meta.grid), size);
                 const IndexBox box = boxIndex(meta.grid);
                 for (int corner = 0; corner < 8; ++corner) {
                     const glm::dvec3 index((corner & 1) ? box.high.x : box.low.x,

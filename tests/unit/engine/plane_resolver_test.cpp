@@ -37,8 +37,8 @@ sheet::CameraStyle defaultCamera() {
 
 /// Where a step along a world direction goes in the picture: right, up, towards the eye.
 glm::dvec3 inPicture(PlaneAxis axis, bool anatomical, const glm::dvec3& direction) {
-    const auto camera =
-        resolvePlaneCamera(planeOf(axis), defaultCamera(), patient(anatomical).grid, anatomical, {80, 60});
+    const auto camera = resolvePlaneCamera(planeOf(axis), defaultCamera(), patient(anatomical).grid,
+                                           anatomical, {80, 60}, ownFrame(patient(anatomical).grid));
     return glm::dmat3(camera.viewFromWorld) * direction;
 }
 
@@ -108,7 +108,8 @@ TEST(PlaneResolver, TheBoxFitsThePictureAndDistanceZooms) {
         for (const glm::ivec2 size : {glm::ivec2(80, 60), glm::ivec2(40, 400), glm::ivec2(500, 50)}) {
             const auto plane = planeOf(axis, {1.0, 2.0, -1.0});
             auto style = defaultCamera();
-            const auto camera = resolvePlaneCamera(plane, style, meta.grid, meta.anatomical, size);
+            const auto camera =
+                resolvePlaneCamera(plane, style, meta.grid, meta.anatomical, size, ownFrame(meta.grid));
             EXPECT_EQ(camera.projection, Projection::Orthographic);
             const PlaneView view = planeView(plane, meta.anatomical);
             const double width = camera.heightWorld * size.x / size.y;
@@ -121,7 +122,8 @@ TEST(PlaneResolver, TheBoxFitsThePictureAndDistanceZooms) {
             style.elevationDegrees = -20.0;
             style.rollDegrees = 12.0;
             style.projection = sheet::Projection::Perspective;
-            const auto nearer = resolvePlaneCamera(plane, style, meta.grid, meta.anatomical, size);
+            const auto nearer =
+                resolvePlaneCamera(plane, style, meta.grid, meta.anatomical, size, ownFrame(meta.grid));
             EXPECT_NEAR(nearer.heightWorld, camera.heightWorld / 2.0, 1e-9);
             EXPECT_EQ(glm::dmat3(nearer.viewFromWorld), glm::dmat3(camera.viewFromWorld));
         }
@@ -131,8 +133,8 @@ TEST(PlaneResolver, TheTargetIsInTheMiddleOfThePicture) {
     const DatasetMeta meta = patient();
     auto style = defaultCamera();
     style.targetRadii = {0.1, -0.2, 0.3};
-    const auto camera =
-        resolvePlaneCamera(planeOf(PlaneAxis::Coronal), style, meta.grid, meta.anatomical, {80, 60});
+    const auto camera = resolvePlaneCamera(planeOf(PlaneAxis::Coronal), style, meta.grid, meta.anatomical,
+                                           {80, 60}, ownFrame(meta.grid));
     const glm::dvec3 target = centreWorld(meta.grid) + style.targetRadii * boundingRadiusWorld(meta.grid);
     const Ray ray = pixelRay(camera, {40.0, 30.0}, {80, 60});
     EXPECT_NEAR(ray.origin.x, target.x, 1e-9);

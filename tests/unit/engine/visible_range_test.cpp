@@ -85,5 +85,20 @@ TEST_F(VisibleRange, SamplesWithoutAValueDoNotCount) {
     EXPECT_EQ(range(), std::nullopt);
 }
 
+TEST_F(VisibleRange, PeriodicVolumesShowTheirSamplesWhereTheWindowPutsThem) {
+    DatasetMeta meta = test::metaOf("p", glm::ivec3(kEdge));
+    meta.grid.periodic = glm::bvec3(true);
+    test::addDataset(provider, meta,
+                     [](int i, int j, int k) { return static_cast<float>(i + 10 * j + 100 * k); });
+    tile.camera.heightWorld = 3.0; // 2.5 to 5.5 in x and y: samples 3, 4, 5
+    EXPECT_EQ(visibleRange(tile, *provider.describe("p"), provider, nullptr), (ValueExtremes{33.0, 855.0}));
+    tile.periodic.shift = {3.0 / kEdge, 0.0, 0.0}; // What stood at 0, 1, 2 stands there now.
+    EXPECT_EQ(visibleRange(tile, *provider.describe("p"), provider, nullptr), (ValueExtremes{30.0, 852.0}));
+    tile.camera.viewFromWorld[3].x = -13.0; // One period further: drawn only if there are two.
+    EXPECT_EQ(visibleRange(tile, *provider.describe("p"), provider, nullptr), std::nullopt);
+    tile.periodic.replicate = {2, 1, 1};
+    EXPECT_EQ(visibleRange(tile, *provider.describe("p"), provider, nullptr), (ValueExtremes{30.0, 852.0}));
+}
+
 } // namespace
 } // namespace voxsheet::engine

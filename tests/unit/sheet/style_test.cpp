@@ -258,7 +258,19 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
                                                            {"plane.interpolation", "nearest"}});
     const TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
     EXPECT_EQ(style.technique, Technique::Plane);
-    EXPECT_EQ(style.plane, (PlaneStyle{PlaneAxis::Custom, {1, 0, -2}, 0.25, PlaneInterpolation::Nearest}));
+    EXPECT_EQ(style.plane, (PlaneStyle{PlaneAxis::Custom,
+                                       {1, 0, -2},
+                                       0.25,
+                                       PlaneInterpolation::Nearest,
+                                       std::nullopt,
+                                       PlaneUnits::Fraction}));
+    sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"plane.crosshair", {3, 4.5, -6}},
+                                                           {"plane.units", "world"},
+                                                           {"camera.frame", "centre"}});
+    const TypedStyle crossed = resolveStyle(testKeys(), sheet, {0, 0}).style;
+    EXPECT_EQ(crossed.plane.crosshair, glm::dvec3(3, 4.5, -6));
+    EXPECT_EQ(crossed.plane.units, PlaneUnits::World);
+    EXPECT_EQ(crossed.camera.frame, FrameMode::Centre);
     const std::vector<nlohmann::json> refused{
         {{"plane.position", 1.5}}, {{"plane.axis", "x"}}, {{"plane.normal", {1, 2}}}};
     for (const nlohmann::json& wrong : refused)

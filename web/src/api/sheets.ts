@@ -45,6 +45,11 @@ export async function clearOverrides(sheet: string, keys: string[], cells: strin
     await sendJson("POST", `${sheetPath(sheet)}/clear-overrides`, { keys, cells });
 }
 
+/** Axial, coronal and sagittal planes beside each of the cells. */
+export async function makePlanes(sheet: string, cells: string[]): Promise<void> {
+    await sendJson("POST", `${sheetPath(sheet)}/planes`, { cells });
+}
+
 export async function saveView(
     sheet: string,
     view: { style: StylePatch; cells: Record<string, StylePatch> },

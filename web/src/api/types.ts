@@ -1,5 +1,6 @@
 // What the server answers, as far as the page reads it.
 import type { StylePatch, StyleValue } from "../model/camera";
+import type { CameraFrame } from "../model/projection";
 import type { VolumeBox } from "../model/volume_box";
 
 export type { StylePatch, StyleValue };
@@ -143,6 +144,8 @@ export interface CellState {
     orientation?: boolean;
     /** The drawn box of what the cell shows. */
     box?: VolumeBox | null;
+    /** What the camera's lengths refer to (camera.frame). */
+    frame?: CameraFrame | null;
     style: Record<string, ResolvedValue>;
 }
 
@@ -223,6 +226,8 @@ export interface LayerBar {
 }
 
 export interface ProbeAnswer {
+    /** Whose picture was probed. */
+    cell?: string;
     world: [number, number, number] | null;
     values: ProbeValue[];
 }

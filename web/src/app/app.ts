@@ -36,7 +36,7 @@ export class App {
     readonly clips = new ClipActions(this.store, this.styles, this.view, this.notices);
     readonly levels = new LevelActions(this.store, this.styles, this.notices);
     readonly keyEdits = new KeyEdits(this.styles, this.view);
-    readonly planes = new PlaneActions(this.styles, this.view, this.keyEdits);
+    readonly planes = new PlaneActions(this.store, this.styles, this.view, this.keyEdits, this.sync, this.notices);
 
     readonly painter = new TilePainter({
         framePainted: (frame, tiles) => {

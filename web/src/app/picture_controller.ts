@@ -101,6 +101,14 @@ export class PictureController implements GestureHandlers {
         const modifiers = { extend: event.shiftKey, toggle: event.ctrlKey || event.metaKey };
         const { selection } = this.app.store.get().page;
         this.app.store.dispatch({ type: "page/select", selection: selectCell(selection, address, modifiers) });
+        if (event.button === 0 && !modifiers.extend && !modifiers.toggle) this.point(event);
+    }
+
+    private point(event: PointerEvent): void {
+        const box = (event.currentTarget as HTMLElement | null)?.getBoundingClientRect();
+        if (!box) return;
+        const pixel = { x: event.clientX - box.left, y: event.clientY - box.top };
+        this.app.planes.pointAt(this.cell, pixel, this.size(), event.altKey);
     }
 
     /** At most one probe under way, and ten a second: hovering must not compete with pictures. */
@@ -138,7 +146,7 @@ export class PictureController implements GestureHandlers {
             const inside = (value: number, size: number): number => Math.min(size, Math.max(0, value));
             const pixel = { cell: this.cell, px: inside(at.x, width), py: inside(at.y, height), width, height, stream: sender.streamId() };
             const probe = await probePixel(sheet.name, pixel, abort.signal);
-            if (this.probing === abort) store.dispatch({ type: "page/probe", probe });
+            if (this.probing === abort) store.dispatch({ type: "page/probe", probe: { ...probe, cell: this.cell } });
         } catch {
             // Aborted, or a value that cannot be had right now: the chip stays away.
             if (this.probing === abort) store.dispatch({ type: "page/probe", probe: null });

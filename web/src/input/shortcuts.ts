@@ -108,6 +108,15 @@ class Shortcuts {
                 if (!(onPicture || nowhere) || !isPlane(view.cell(active))) return false;
                 this.app.planes.step(active, event.key === "PageUp" ? 1 : -1, event.altKey);
                 return true;
+            case "x":
+                this.app.planes.crosshairHere(event.altKey);
+                return true;
+            case "X":
+                this.app.planes.crosshairOff(event.altKey);
+                return true;
+            case "p":
+                void this.app.planes.beside();
+                return true;
             case "Delete":
                 void cells.clearSelected();
                 return true;

@@ -1,8 +1,9 @@
 // Where technique plane cuts a cell's volume, and how far one step of a voxel takes it (server/engine/plane_resolver.h).
 import type { CellState, StylePatch, StyleValue } from "../api/types";
 import { isFinite3 } from "./camera";
+import { crosshairPoint, crosshairValue, unitsOf } from "./crosshair";
 import { isPlane } from "./plane_view";
-import { cross, dot, length, normalized, scaled, type Matrix, type Vector } from "./vector";
+import { add, cross, dot, length, normalized, scaled, type Matrix, type Vector } from "./vector";
 import { extentAlong, pointAt, type VolumeBox } from "./volume_box";
 
 const worldAxes: Matrix = [
@@ -88,7 +89,11 @@ export function steppedPlane(cell: CellState | undefined, shown: ShownValue, by:
     const { low, high } = extentAlong(box, normal);
     const position = shown("plane.position");
     if (!steps || typeof position !== "number" || high <= low) return null;
-    const offset = low + position * (high - low);
+    const units = unitsOf(shown("plane.units"));
+    const crosshair = crosshairPoint(box, shown("plane.crosshair"), units);
+    const offset = crosshair ? dot(normal, crosshair) : low + position * (high - low);
     const next = steppedOffset(offset, by, steps, low, high);
-    return Math.abs(next - offset) < tolerance * steps.step ? null : { "plane.position": rounded(clamp01((next - low) / (high - low))) };
+    if (Math.abs(next - offset) < tolerance * steps.step) return null;
+    if (crosshair) return { "plane.crosshair": crosshairValue(box, add(crosshair, scaled(normal, next - offset)), units) };
+    return { "plane.position": rounded(clamp01((next - low) / (high - low))) };
 }

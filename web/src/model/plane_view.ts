@@ -2,8 +2,9 @@
 // nothing there.
 import type { CellState } from "../api/types";
 import { cameraBasis, isFinite3, type Basis, type Camera, type FlatView } from "./camera";
-import { cross, length, normalized, scaled, type Vector } from "./vector";
-import { boundingRadius, extentAlong } from "./volume_box";
+import { ownFrame, pictureView, type PictureView } from "./projection";
+import { add, cross, length, normalized, scaled, type Vector } from "./vector";
+import { extentAlong } from "./volume_box";
 
 /** Picture over box where it fits tightest, at the camera distance that shows all. */
 const margin = 1.04;
@@ -58,6 +59,24 @@ export function flatView(cell: CellState | undefined, aspect: number): FlatView 
         const { low, high } = extentAlong(box, direction);
         return high - low;
     };
-    const fitting = Math.max(extent(basis.up), extent(basis.right) / aspect);
-    return { basis, heightPerDistance: (margin * fitting) / (fittingDistance * boundingRadius(box)) };
+    const frame = cell.frame ?? ownFrame(box);
+    const fitting = frame.size ? Math.max(...frame.size) / Math.min(1, aspect) : Math.max(extent(basis.up), extent(basis.right) / aspect);
+    return { basis, heightPerDistance: (margin * fitting) / (fittingDistance * frame.radius) };
+}
+
+/** Of what the cell's picture shows, whatever its technique. null: there is no volume yet */
+export function cellPictureView(cell: CellState, camera: Camera, width: number, height: number): PictureView | null {
+    if (!cell.box) return null;
+    const frame = cell.frame ?? ownFrame(cell.box);
+    const flat = flatView(cell, width / Math.max(1, height));
+    if (!flat) return pictureView(camera, cell.box, width, height, frame);
+    const target = add(frame.centre, scaled(camera.target, frame.radius));
+    return {
+        basis: flat.basis,
+        eye: add(target, scaled(flat.basis.towardsEye, camera.distance * frame.radius)),
+        perspective: false,
+        halfHeight: (flat.heightPerDistance * camera.distance * frame.radius) / 2,
+        width,
+        height,
+    };
 }

@@ -20,11 +20,29 @@ export interface PictureView {
     height: number;
 }
 
+/** What the camera's lengths refer to: a cell's own volume, or what linked cells have together. World units. */
+export interface CameraFrame {
+    centre: Vector;
+    radius: number;
+    /** Of the upright box whose longest edge pictures of planes show; null: the cell's own box fits. */
+    size?: Vector | null;
+}
+
+export function ownFrame(box: VolumeBox): CameraFrame {
+    return { centre: boxCentre(box), radius: boundingRadius(box) };
+}
+
 /** \param width, height  of the picture, in the pixels that the results are in */
-export function pictureView(camera: Camera, box: VolumeBox, width: number, height: number): PictureView {
+export function pictureView(
+    camera: Camera,
+    box: VolumeBox,
+    width: number,
+    height: number,
+    frame: CameraFrame = ownFrame(box),
+): PictureView {
     const basis = cameraBasis(camera);
-    const radius = boundingRadius(box);
-    const target = add(boxCentre(box), scaled(camera.target, radius));
+    const { radius } = frame;
+    const target = add(frame.centre, scaled(camera.target, radius));
     const distance = camera.distance * radius;
     // The angle of view is that of the shorter side.
     const slope = Math.tan((camera.fov * Math.PI) / 360) / Math.min(1, width / height);

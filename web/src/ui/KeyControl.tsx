@@ -91,7 +91,7 @@ function ColourControl({ spec, value, id, set, preview }: ControlProps) {
 }
 
 function VectorControl({ spec, value, id, set }: ControlProps) {
-    const parts = Array.isArray(value) ? value : [0, 0, 0];
+    const parts = Array.isArray(value) ? value : spec.takesNone ? [null, null, null] : [0, 0, 0];
     return (
         <span class="vector-control">
             {["x", "y", "z"].map((axis, i) => (
@@ -101,9 +101,11 @@ function VectorControl({ spec, value, id, set }: ControlProps) {
                     id={i === 0 ? id : undefined}
                     label={`${spec.name} ${axis}`}
                     value={typeof parts[i] === "number" ? plainNumber(parts[i]) : ""}
+                    placeholder={spec.takesNone ? "none" : ""}
                     set={(typed) => {
                         const number = Number(typed);
-                        if (Number.isFinite(number)) set(parts.map((part, j) => (j === i ? number : part)));
+                        // The first number of a vector that was none: the others are 0 until they are typed.
+                        if (Number.isFinite(number)) set(parts.map((part, j) => (j === i ? number : (part ?? 0))));
                     }}
                 />
             ))}

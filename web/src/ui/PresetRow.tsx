@@ -12,6 +12,15 @@ export function PresetRow() {
                     {label}
                 </button>
             ))}
+            <button
+                type="button"
+                class="chip"
+                title="Axial, coronal and sagittal planes in cells of their own beside the selected ones, linked by a crosshair (p)"
+                data-planes="beside"
+                onClick={() => void app.planes.beside()}
+            >
+                Planes beside
+            </button>
         </div>
     );
 }

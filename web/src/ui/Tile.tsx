@@ -13,6 +13,7 @@ import { newTile, type TileInfo } from "../state/tiles";
 import { useApp, useSelect } from "./app_context";
 import { ClipHandles } from "./clip/ClipHandles";
 import { ColourBar } from "./ColourBar";
+import { CrosshairLines } from "./CrosshairLines";
 import { LevelBadge } from "./levels/LevelBadge";
 import { NoteMark } from "./NoteMark";
 import { OrientationMarks } from "./OrientationMarks";
@@ -182,6 +183,7 @@ export function Tile({ address }: { address: Address }) {
                 <canvas ref={canvas} class={drawn && tile.painted ? "" : "blank"} width={1} height={1} />
                 {drawn && !tile.final && <div class="refining" aria-hidden="true" />}
                 {drawn && tile.painted && <OrientationMarks cell={name} />}
+                {drawn && tile.painted && <CrosshairLines cell={name} />}
                 {drawn && tile.painted && <ColourBar cell={name} />}
                 {drawn && clipHandles && !isPlane(cell) && <ClipHandles cell={name} />}
                 {drawn && <ProbeChip cell={name} />}

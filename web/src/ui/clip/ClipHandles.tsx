@@ -1,6 +1,6 @@
 // What is clipped, on the cell's picture: outlines, and handles to drag it. Drawn from the camera and never waiting for a
 // picture.
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import type { StyleValue } from "../../api/types";
 import { formatAddress } from "../../model/address";
 import { clipOf, hasClip, type Clip } from "../../model/clip/clip";
@@ -10,6 +10,7 @@ import { pictureView, type PictureView } from "../../model/projection";
 import type { VolumeBox } from "../../model/volume_box";
 import { cellOf, currentSheet } from "../../state/book";
 import { useApp, useSelect } from "../app_context";
+import { usePictureSize } from "../picture_size";
 import { BoxHandles } from "./BoxHandles";
 import { ObjectHandles } from "./ObjectHandles";
 import { PlaneHandles } from "./PlaneHandles";
@@ -22,19 +23,6 @@ export interface HandlesContext {
     clip: Clip;
     /** By Tab: only those of the active cell. */
     reachable: boolean;
-}
-
-function useSize() {
-    const svg = useRef<SVGSVGElement>(null);
-    const [size, setSize] = useState({ width: 0, height: 0 });
-    useEffect(() => {
-        const observer = new ResizeObserver(([entry]) => {
-            if (entry) setSize({ width: entry.contentRect.width, height: entry.contentRect.height });
-        });
-        observer.observe(svg.current!);
-        return () => observer.disconnect();
-    }, []);
-    return { svg, size };
 }
 
 function sameJson(a: unknown, b: unknown): boolean {
@@ -51,7 +39,7 @@ function useBoxOf(): (name: string) => VolumeBox | null {
 }
 
 export function ClipHandles({ cell: name }: { cell: string }) {
-    const { svg, size } = useSize();
+    const { svg, size } = usePictureSize();
     const boxOf = useBoxOf();
     const cell = useSelect((state) => cellOf(currentSheet(state.book), name));
     const live = useSelect((state) => state.page.live[name]);
@@ -60,7 +48,7 @@ export function ClipHandles({ cell: name }: { cell: string }) {
     const clip = useMemo(() => clipOf((key): StyleValue | undefined => live?.[key] ?? cell?.style[key]?.value), [cell, live]);
     const box = cell?.box;
     const drawn = box && size.width > 0 && hasClip(clip);
-    const view = drawn ? pictureView(camera, box, size.width, size.height) : null;
+    const view = drawn ? pictureView(camera, box, size.width, size.height, cell.frame ?? undefined) : null;
     const context = view && box ? { cell: name, view, box, clip, reachable } : null;
     return (
         <svg ref={svg} class="clip-handles" role="group" aria-label={`Clip handles of ${name}`}>

@@ -1,0 +1,88 @@
+// What scans need of the real program: ranges of values, planes beside a volume, cameras of linked cells.
+#include "raw_client.h"
+#include "served_program.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace voxsheet::http_test;
+using nlohmann::json;
+
+namespace {
+
+const std::string kSheet = "/api/v1/sheets/Sheet1";
+
+class ApiScans : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        program_ = new ServedProgram(2, {"--columns", "1"});
+        ASSERT_TRUE(program_->waitForImports());
+    }
+    static void TearDownTestSuite() {
+        delete program_;
+        program_ = nullptr;
+    }
+    static json getJson(const std::string& target) {
+        const auto answer = program_->get(target);
+        EXPECT_EQ(answer.status, 200) << target << answer.body;
+        return answer.json();
+    }
+    static ServedProgram* program_;
+};
+
+ServedProgram* ApiScans::program_ = nullptr;
+
+TEST_F(ApiScans, RangesOfValuesOverDataTimeAndWhatThePictureShows) {
+    const auto range = kSheet + "/cells/A1/range";
+    // Values are x + 10 y + 3 z + offset of 12 x 10 x 8 samples.
+    const auto all = getJson(range);
+    EXPECT_EQ(all.at("over"), "data");
+    const double low = all.at("min");
+    EXPECT_EQ(all.at("max"), low + 11 + 90 + 21);
+    EXPECT_EQ(getJson(range + "?over=time").at("max"), all.at("max"));
+    EXPECT_EQ(getJson(range + "?over=visible").at("min"), low);
+    const auto plane = range + "?over=visible&technique=plane&plane.axis=sagittal&plane.position=";
+    EXPECT_EQ(getJson(plane + "0").at("min"), low);
+    EXPECT_EQ(getJson(plane + "0").at("max"), low + 90 + 21)
+        << "x = 0 alone, or the box would not begin there";
+    EXPECT_EQ(getJson(plane + "0&camera.target=50,50,50").at("min"), nullptr)
+        << "the picture shows none of it";
+    EXPECT_EQ(program_->get(range + "?over=everything").json().at("field"), "over");
+    EXPECT_EQ(program_->get(kSheet + "/cells/B2/range").status, 404);
+}
+
+TEST_F(ApiScans, PlanesStandBesideEveryNamedCellAsOneUndoStep) {
+    const auto before = getJson("/api/v1/workbook");
+    EXPECT_EQ(program_->ask("POST", kSheet + "/planes", R"({"cells": []})").json().at("field"), "cells");
+    EXPECT_EQ(program_->ask("POST", kSheet + "/planes", R"({"cells": ["Z99"]})").status, 404);
+    const auto made = program_->ask("POST", kSheet + "/planes", R"({"cells": ["A1", "A2"]})");
+    EXPECT_EQ(made.status, 200) << made.body;
+    const auto sheet = getJson(kSheet);
+    EXPECT_EQ(sheet.at("columns"), 4);
+    const auto cell = getJson(kSheet + "/cells/D2");
+    EXPECT_EQ(cell.at("source").at("dataset"), getJson(kSheet + "/cells/A2").at("source").at("dataset"));
+    EXPECT_EQ(cell.at("plane.axis"), "sagittal");
+    EXPECT_EQ(cell.at("resolved").at("plane.crosshair").at("value"), json::array({0.5, 0.5, 0.5}));
+    const auto image = program_->get(kSheet + "/cells/D2/image.png?width=64&height=64&plane.crosshair=0,0,0");
+    EXPECT_EQ(image.status, 200) << image.body;
+    EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
+    EXPECT_EQ(getJson("/api/v1/workbook"), before);
+}
+
+TEST_F(ApiScans, CellsSayWhatTheirCamerasLengthsReferTo) {
+    const auto frame = [&](const std::string& cell) {
+        return getJson(kSheet + "/cells/" + cell).at("frame");
+    };
+    EXPECT_EQ(frame("A1").at("size"), nullptr);
+    const double radius = frame("A1").at("radius");
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/style", R"({"camera.frame": "world"})").status, 200);
+    EXPECT_EQ(frame("A1"), frame("A2"));
+    EXPECT_EQ(frame("A1").at("size").size(), 3U);
+    EXPECT_GE(frame("A1").at("radius").get<double>(), radius);
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/style", R"({"camera.frame": "nearby"})").json().at("field"),
+              "camera.frame");
+    EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
+}
+
+} // namespace
