@@ -51,9 +51,11 @@ void Canvas::fill(const PixelRect& area, const glm::vec4& colour) {
 }
 
 void Canvas::line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect& area,
-                  const glm::vec4& colour) {
-    const glm::ivec2 low = glm::max(glm::max(area.low, glm::ivec2(0)), glm::ivec2(glm::min(from, to)) - 1);
-    const glm::ivec2 high = glm::min(glm::min(area.high, size_), glm::ivec2(glm::max(from, to)) + 2);
+                  const glm::vec4& colour, double widthPixels) {
+    const int reach = static_cast<int>(std::ceil(widthPixels / 2.0)) + 1;
+    const glm::ivec2 low =
+        glm::max(glm::max(area.low, glm::ivec2(0)), glm::ivec2(glm::min(from, to)) - reach);
+    const glm::ivec2 high = glm::min(glm::min(area.high, size_), glm::ivec2(glm::max(from, to)) + reach + 1);
     const glm::dvec2 along = to - from;
     const double length = glm::length(along);
     if (length <= 0.0) return;
@@ -63,7 +65,7 @@ void Canvas::line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect&
             const double part = glm::dot(at, along) / length;
             const double aside = std::abs(at.x * along.y - at.y * along.x) / length;
             const double beyond = std::max({0.0, -part, part - length});
-            const double cover = std::clamp(1.0 - std::hypot(aside, beyond), 0.0, 1.0);
+            const double cover = std::clamp(widthPixels / 2.0 + 0.5 - std::hypot(aside, beyond), 0.0, 1.0);
             if (cover <= 0.0) continue;
             blend({x, y}, premultiplied({glm::vec3(colour), colour.w * static_cast<float>(cover)}));
         }

@@ -26,8 +26,9 @@ public:
 
     /// Over what is there. Parts outside the canvas are left out. \param colour  not premultiplied
     void fill(const PixelRect& area, const glm::vec4& colour);
-    /// One pixel wide, smooth, only inside the area.
-    void line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect& area, const glm::vec4& colour);
+    /// Smooth, only inside the area. \param colour  not premultiplied
+    void line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect& area, const glm::vec4& colour,
+              double widthPixels = 1.0);
     /// Replaces what is there.
     void put(const TilePixels& picture, glm::ivec2 at);
     /// One line, its middle at the height of `at`, shortened with "…" to `maxWidth` pixels. Throws

@@ -1,12 +1,10 @@
 #include "engine/sheet_image.h"
 
 #include "base/errors.h"
-#include "engine/axis_ticks.h"
 #include "engine/canvas.h"
-#include "engine/colour_bar.h"
+#include "engine/colour_bar_painter.h"
 #include "engine/crosshair.h"
 #include "engine/tile_identity.h"
-#include "engine/unit_text.h"
 
 #include <algorithm>
 #include <optional>
@@ -16,6 +14,7 @@ namespace voxsheet::engine {
 namespace {
 
 /// As on the page.
+constexpr glm::vec4 kCrosshairEdge{0.0F, 0.0F, 0.0F, 0.4F};
 constexpr glm::vec4 kCrosshairColour{1.0F, 0.84F, 0.2F, 0.75F};
 
 /// One cell on its way into the picture.
@@ -76,13 +75,6 @@ std::string headerText(const std::map<int, sheet::Header>& headers, int line, co
 std::string crosshairText(const sheet::ResolvedStyle& resolved) {
     return sheet::styleValueText(resolved.values.at("plane.crosshair").value) +
            sheet::styleValueText(resolved.values.at("plane.units").value);
-}
-
-std::string fusedText(const CellLook& look) {
-    std::string text = "fused with";
-    for (std::size_t i = 0; i < look.layers.size(); ++i)
-        text += (i == 0 ? " " : ", ") + look.layers[i].name;
-    return text;
 }
 
 class Composer {
@@ -225,7 +217,9 @@ private:
             canvas.put(*picture, area.low);
             if (cell.annotations == sheet::Annotations::All) {
                 drawCrosshair(canvas, cell, area);
-                drawColourBar(canvas, cell, area);
+                const Palette colours = paletteFor(cell.background);
+                paintColourBar(canvas, *cell.look, area, layout_.fontPixels * 4 / 5,
+                               {colours.text, colours.quiet, cell.background});
             }
         } else {
             canvas.fill(area, cell.background);
@@ -272,83 +266,14 @@ private:
         const Grid drawn = drawnGrid(cell.look->meta->grid, cell.tile.spec->periodic);
         const auto crosshair = crosshairWorld(cell.look->resolved.style.plane, drawn);
         if (!crosshair) return;
-        for (const PixelLine& line : crosshairLines(*cell.tile.spec, drawn, *crosshair))
-            canvas.line(glm::dvec2(area.low) + line.from, glm::dvec2(area.low) + line.to, area,
-                        kCrosshairColour);
-    }
-
-    /// On the picture's right edge: the colours from low to high, round numbers, isovalues, and the unit.
-    /// Where another volume colours the surfaces, it is that one's bar.
-    void drawColourBar(Canvas& canvas, const DrawnCell& cell, const PixelRect& area) {
-        const int font = std::max(8, layout_.fontPixels * 4 / 5);
-        const int height = area.size().y * 11 / 20;
-        if (height < 5 * font || area.size().x < 12 * font) return;
-        const auto& by = cell.look->colouredBy;
-        const TransferFunction& function = (by ? by->transfer : cell.look->transfer).function;
-        const Palette colours = paletteFor(cell.background);
-        const int width = std::max(5, font * 3 / 4);
-        const int right = area.high.x - font;
-        const int top = area.low.y + (area.size().y - height) / 2 + font / 2;
-        for (int y = 0; y < height; ++y) {
-            const double position = 1.0 - (y + 0.5) / height;
-            const glm::vec4 colour(evaluateTransfer(function, transferValue(function, position)));
-            canvas.fill({{right - width, top + y}, {right, top + y + 1}}, {glm::vec3(colour), 1.0F});
-        }
-        for (const Tick& tick : axisTicks(function, std::clamp(height / (font * 3), 2, 6))) {
-            const int y = top + static_cast<int>((1.0 - tick.position) * (height - 1));
-            canvas.fill({{right - width - font / 4, y}, {right - width, y + 1}}, colours.quiet);
-            canvas.text({right - width - font / 2, y}, TextAlign::Right, tick.label, font, colours.text,
-                        area.size().x / 3);
-        }
-        drawEnds(canvas, function, {{right - width, top}, {right, top + height}}, colours.quiet);
-        if (!by) drawIsovalues(canvas, *cell.look, {{right - width, top}, {right, top + height}}, colours);
-        const FieldMeta& field =
-            by ? by->meta->fields.at(static_cast<std::size_t>(by->shown.field))
-               : cell.look->meta->fields.at(static_cast<std::size_t>(cell.look->shown.field));
-        std::string caption = field.quantity;
-        if (!field.unit.empty()) caption += (caption.empty() ? "" : " / ") + unitText(field.unit);
-        if (function.scale != ValueScale::Linear)
-            caption += std::string(caption.empty() ? "" : ", ") + scaleName(function.scale);
-        if (cell.look->sharedRange && !by) caption += caption.empty() ? "shared" : ", shared";
-        if (hasGaps(field) && function.nan.w > 0.0) {
-            const int bottom = top + height + 2 * width;
-            canvas.fill({{right - width, bottom}, {right, bottom + width}}, {glm::vec3(function.nan), 1.0F});
-            canvas.text({right - width - font / 2, bottom + width / 2}, TextAlign::Right, "no value", font,
-                        colours.text, area.size().x / 2);
-        }
-        const int captionAt = top - font - (function.hasAbove ? width : 0);
-        canvas.text({right, captionAt}, TextAlign::Right, caption, font, colours.quiet,
-                    area.size().x * 3 / 4);
-        if (!cell.look->layers.empty()) {
-            canvas.text({right, captionAt - font * 3 / 2}, TextAlign::Right, fusedText(*cell.look), font,
-                        colours.text, area.size().x * 3 / 4);
-        }
-    }
-
-    /// Beyond the bar's ends, where they are set: the colours of values outside the range.
-    static void drawEnds(Canvas& canvas, const TransferFunction& function, const PixelRect& bar,
-                         const glm::vec4& edge) {
-        const int height = bar.size().x;
-        const auto block = [&](int top, const glm::dvec4& colour) {
-            canvas.fill({{bar.low.x - 1, top - 1}, {bar.high.x + 1, top + height + 1}}, edge);
-            canvas.fill({{bar.low.x, top}, {bar.high.x, top + height}}, {glm::vec3(colour), 1.0F});
+        const auto lines = crosshairLines(*cell.tile.spec, drawn, *crosshair);
+        const auto draw = [&](const glm::vec4& colour, double widthPixels) {
+            for (const PixelLine& line : lines)
+                canvas.line(glm::dvec2(area.low) + line.from, glm::dvec2(area.low) + line.to, area, colour,
+                            widthPixels);
         };
-        if (function.hasAbove) block(bar.low.y - height - 1, function.above);
-        if (function.hasBelow) block(bar.high.y + 1, function.below);
-    }
-
-    /// A line across the bar at each surface's value, and its colour beside it.
-    static void drawIsovalues(Canvas& canvas, const CellLook& look, const PixelRect& bar,
-                              const Palette& colours) {
-        const int half = std::max(1, bar.size().x / 6);
-        for (const Isosurface& surface : look.isosurface.surfaces) {
-            const auto position = barPosition(look.transfer.function, surface.value);
-            if (!position) continue;
-            const int y = bar.low.y + static_cast<int>((1.0 - *position) * (bar.size().y - 1));
-            canvas.fill({{bar.low.x, y}, {bar.high.x, y + 1}}, colours.text);
-            canvas.fill({{bar.high.x, y - half}, {bar.high.x + 4 * half, y + half + 1}},
-                        {glm::vec3(surface.colour), 1.0F});
-        }
+        draw(kCrosshairEdge, 3.0);
+        draw(kCrosshairColour, 1.0);
     }
 
     const SheetImageRequest& request_;

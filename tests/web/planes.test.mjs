@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { look, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
 import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
-import { writeBalls } from "./volumes.mjs";
+import { ball, writeBalls } from "./volumes.mjs";
+import { writeFile } from "node:fs/promises";
 
 const cells = ["A1", "B1"];
 const size = 33;
@@ -12,7 +13,9 @@ let folder, server, browser, page;
 
 before(async () => {
     folder = await makeFolder();
-    server = await startServer(folder, [...(await writeBalls(folder, 2, size)), "--columns", "2", "--set", "technique=plane"]);
+    const small = `${folder}/small.nrrd`;
+    await writeFile(small, ball(17, [0.5, 0.5, 0.5]));
+    server = await startServer(folder, [...(await writeBalls(folder, 2, size)), small, "--columns", "3", "--set", "technique=plane"]);
     browser = await openBrowser();
     page = await openPage(browser, server.url);
     await settled(page, cells);
@@ -214,17 +217,40 @@ test("x takes the crosshair to what lies under the pointer, in a volume too; Shi
     assert.deepEqual(await valueOf("A1", "plane.crosshair"), [0, 0.25, 0]);
 });
 
-test("linked cells of different size share a scale, or a place, by camera.frame", async () => {
+test("the position's slider moves the crosshair along the plane's normal where there is one", async () => {
+    await select(page, "A3");
+    await setScope(page, "sheet");
+    assert.equal(await page.locator("#key-plane-position").inputValue(), "0.25", "coronal: y");
+    await page.locator("#key-plane-position").fill("0.75");
+    await page.locator("#key-plane-position").press("Enter");
+    assert.deepEqual(await waitForStyle(page, "A1", "plane.crosshair", [0, 0.25, 0]), [0, 0.75, 0]);
+    assert.equal(await valueOf("A3", "plane.position"), 0.5);
+});
+
+test("linked cells of different size share a scale, or a place, by camera.frame, and clicks still mean what lies there", async () => {
     const frameOf = (cell) =>
         page.evaluate((name) => window.voxsheet.store.get().book.book.sheets[0].cells.find((each) => each.cell === name).frame, cell);
-    assert.equal((await frameOf("A1")).size, null);
-    await setScope(page, "sheet");
+    assert.equal((await frameOf("C1")).size, null);
     await page.locator('[data-group="Camera"] h3 button').click();
-    await page.locator("#key-camera-frame").selectOption("world");
-    await waitForOrigin(page, "camera.frame", "sheet");
-    const [a, b] = [await frameOf("A1"), await frameOf("B1")];
-    assert.deepEqual(a, b);
-    assert.deepEqual(a.size, [size - 1, size - 1, size - 1], "both balls have one box");
-    await settled(page, views);
+    for (const [frame, x, y] of [["centre", 0.45, 0.55], ["world", 0.3, 0.7]]) {
+        const before = await look(page, "C1");
+        await page.locator("#key-camera-frame").selectOption(frame);
+        await waitForOrigin(page, "camera.frame", "sheet");
+        await waitUntil(page, (name) => window.voxsheet.store.get().book.book.sheets[0].cells[0].style["camera.frame"].value === name, frame);
+        assert.deepEqual((await frameOf("C1")).size, [size - 1, size - 1, size - 1], "the largest of them");
+        await settled(page, ["C1"]);
+        const after = await look(page, "C1");
+        assert.ok(after.covered < before.covered || frame === "world", "the small one is shown as small as it is");
+        const crosshair = await valueOf("C1", "plane.crosshair");
+        await clickAt("C1", x, y);
+        const value = await waitForStyle(page, "C1", "plane.crosshair", crosshair);
+        const world = await page.evaluate(async ([px, py]) => {
+            const box = document.querySelector('[data-picture-of="C1"]').getBoundingClientRect();
+            const query = new URLSearchParams({ cell: "C1", px: px * box.width, py: py * box.height, width: Math.round(box.width), height: Math.round(box.height) });
+            return (await (await fetch(`api/v1/sheets/Sheet1/probe?${query}`)).json()).world;
+        }, [x, y]);
+        near(value, world.map((part) => part / 16), 0.02);
+    }
+    assert.deepEqual((await frameOf("A1")).centre, (await frameOf("C1")).centre);
     assert.deepEqual(page.problems, []);
 });

@@ -80,20 +80,50 @@ function clamp01(value: number): number {
     return Math.min(1, Math.max(0, value));
 }
 
+/** Where the plane stands along its normal, and between which ends; null: the cell shows no plane. */
+interface Placed {
+    box: VolumeBox;
+    normal: Vector;
+    low: number;
+    high: number;
+    offset: number;
+    crosshair: Vector | null;
+}
+
+function placed(cell: CellState | undefined, shown: ShownValue): Placed | null {
+    const box = cell?.box;
+    const position = shown("plane.position");
+    if (!box || !isPlane(cell) || cell.state !== "ok" || typeof position !== "number") return null;
+    const normal = planeNormal(shown);
+    const { low, high } = extentAlong(box, normal);
+    if (high <= low) return null;
+    const crosshair = crosshairPoint(box, shown("plane.crosshair"), unitsOf(shown("plane.units")));
+    return { box, normal, low, high, offset: crosshair ? dot(normal, crosshair) : low + position * (high - low), crosshair };
+}
+
+/** What puts the plane at another place along its normal: its position, or the crosshair that it passes through. */
+function placedAt({ box, normal, low, high, offset, crosshair }: Placed, shown: ShownValue, next: number): StylePatch {
+    if (!crosshair) return { "plane.position": rounded(clamp01((next - low) / (high - low))) };
+    return { "plane.crosshair": crosshairValue(box, add(crosshair, scaled(normal, next - offset)), unitsOf(shown("plane.units"))) };
+}
+
 /** \param by  voxels along the plane's normal. null: the cell shows no plane, or cannot go on */
 export function steppedPlane(cell: CellState | undefined, shown: ShownValue, by: number): StylePatch | null {
-    const box = cell?.box;
-    if (!box || !isPlane(cell) || cell.state !== "ok") return null;
-    const normal = planeNormal(shown);
-    const steps = stepsAlong(box, normal);
-    const { low, high } = extentAlong(box, normal);
-    const position = shown("plane.position");
-    if (!steps || typeof position !== "number" || high <= low) return null;
-    const units = unitsOf(shown("plane.units"));
-    const crosshair = crosshairPoint(box, shown("plane.crosshair"), units);
-    const offset = crosshair ? dot(normal, crosshair) : low + position * (high - low);
-    const next = steppedOffset(offset, by, steps, low, high);
-    if (Math.abs(next - offset) < tolerance * steps.step) return null;
-    if (crosshair) return { "plane.crosshair": crosshairValue(box, add(crosshair, scaled(normal, next - offset)), units) };
-    return { "plane.position": rounded(clamp01((next - low) / (high - low))) };
+    const place = placed(cell, shown);
+    const steps = place && stepsAlong(place.box, place.normal);
+    if (!place || !steps) return null;
+    const next = steppedOffset(place.offset, by, steps, place.low, place.high);
+    return Math.abs(next - place.offset) < tolerance * steps.step ? null : placedAt(place, shown, next);
+}
+
+/** From 0 to 1 through the box, also where a crosshair decides. null: the cell shows no plane */
+export function positionOfPlane(cell: CellState | undefined, shown: ShownValue): number | null {
+    const place = placed(cell, shown);
+    return place && rounded(clamp01((place.offset - place.low) / (place.high - place.low)));
+}
+
+/** null: the cell shows no plane */
+export function planeMovedTo(cell: CellState | undefined, shown: ShownValue, position: number): StylePatch | null {
+    const place = placed(cell, shown);
+    return place && placedAt(place, shown, place.low + position * (place.high - place.low));
 }

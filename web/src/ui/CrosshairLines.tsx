@@ -48,9 +48,9 @@ export function CrosshairLines({ cell: name }: { cell: string }) {
     const lines = view && point ? linesOf(cell, view, point) : [];
     return (
         <svg ref={svg} class="crosshair" aria-hidden="true" data-crosshair={lines.length > 0 ? name : undefined}>
-            {lines.map(([from, to], i) => (
-                <line key={i} x1={from.x} y1={from.y} x2={to.x} y2={to.y} />
-            ))}
+            {["edge", "line"].map((part) =>
+                lines.map(([from, to], i) => <line key={`${part}${i}`} class={part} x1={from.x} y1={from.y} x2={to.x} y2={to.y} />),
+            )}
         </svg>
     );
 }

@@ -1,9 +1,10 @@
 // The style panel, built from the key table: what each value is, where it comes from, and where an edit goes.
 import { EllipsisVertical, RotateCcw, X } from "lucide-preact";
 import { useState } from "preact/hooks";
-import type { CellState, StyleKey, StyleValue } from "../api/types";
+import type { CellState, StyleKey, StylePatch, StyleValue } from "../api/types";
 import { formatAddress } from "../model/address";
 import { groupKeys, isWide, keyLabel } from "../model/keys";
+import { planeMovedTo, positionOfPlane } from "../model/plane_position";
 import { originLabel, scopesOf, targetLabel, type Scope } from "../model/scope";
 import { describeSelection } from "../model/selection";
 import { cellOf, currentSheet } from "../state/book";
@@ -88,12 +89,23 @@ function sameJson(a: StyleValue | undefined, b: StyleValue | undefined): boolean
     return JSON.stringify(a ?? null) === JSON.stringify(b ?? null);
 }
 
+/** Planes that pass through a crosshair are moved by moving that; others, and other keys, by their own value. */
+function useKeyValue(spec: StyleKey, cell: CellState): { value: StyleValue | undefined; patchOf: (next: StyleValue) => StylePatch } {
+    const live = useSelect((state) => state.page.live[cell.cell]);
+    const shown = (key: string): StyleValue | undefined => live?.[key] ?? cell.style[key]?.value;
+    const own = shown(spec.name) ?? spec.default;
+    if (spec.name !== "plane.position") return { value: own, patchOf: (next) => ({ [spec.name]: next }) };
+    return {
+        value: positionOfPlane(cell, shown) ?? own,
+        patchOf: (next) => (typeof next === "number" && planeMovedTo(cell, shown, next)) || { [spec.name]: next },
+    };
+}
+
 function KeyRow({ spec, cell }: { spec: StyleKey; cell: CellState }) {
     const app = useApp();
-    const live = useSelect((state) => state.page.live[cell.cell]?.[spec.name]);
+    const { value, patchOf } = useKeyValue(spec, cell);
     const resolved = cell.style[spec.name];
     const origin = resolved?.origin ?? "default";
-    const value = live ?? resolved?.value ?? spec.default;
     const overridden = origin !== "default" && origin !== "sheet";
     const id = `key-${spec.name.replaceAll(".", "-")}`;
     const changed = origin !== "default";
@@ -107,11 +119,13 @@ function KeyRow({ spec, cell }: { spec: StyleKey; cell: CellState }) {
                 spec={spec}
                 value={value}
                 set={(next) => {
-                    if (!sameJson(next, resolved?.value) || app.styles.targets().length > 1) void app.styles.set({ [spec.name]: next });
+                    const patch = patchOf(next);
+                    const changes = Object.entries(patch).some(([key, each]) => !sameJson(each, cell.style[key]?.value));
+                    if (changes || app.styles.targets().length > 1) void app.styles.set(patch);
                     else app.styles.cancelPreview();
                 }}
-                preview={(next) => app.styles.preview({ [spec.name]: next })}
-                nudge={(next) => app.keyEdits.show(spec.name, app.styles.targets(), { [spec.name]: next })}
+                preview={(next) => app.styles.preview(patchOf(next))}
+                nudge={(next) => app.keyEdits.show(spec.name, app.styles.targets(), patchOf(next))}
             />
             <span class={`origin origin-${origin}`} title={`This value comes from: ${originLabel(origin, cell.cell)}`}>
                 {originLabel(origin, cell.cell)}
@@ -131,7 +145,7 @@ function KeyRow({ spec, cell }: { spec: StyleKey; cell: CellState }) {
                 label={`Apply ${spec.name} to …`}
                 items={scopesOf(app.store.get().page.selection).map((scope) => ({
                     label: `Apply to ${app.styles.targets(scope).map(targetLabel).slice(0, 3).join(", ")}`,
-                    onChoose: () => void app.styles.setAtScope(scope, { [spec.name]: value ?? null }),
+                    onChoose: () => void app.styles.setAtScope(scope, patchOf(value ?? null)),
                 }))}
             >
                 <EllipsisVertical size={14} aria-hidden="true" />
