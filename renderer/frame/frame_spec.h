@@ -46,7 +46,7 @@ struct TilePixels {
     double timestampMs = 0.0; ///< the same as the driver gave it
     double hostMs = 0.0;      ///< by the host's clock, until the pixels were in host memory
     double uploadMs = 0.0;    ///< host time of conversion, upload and gradients; 0 when all was resident
-    double readMs = 0.0;      ///< host time of reading from the provider; 0 when all was resident
+    double readMs = 0.0;      ///< of waiting for samples to be read; 0 when all was resident
     std::string error;        ///< not empty: this tile failed, there are no pixels; the other tiles are whole
     ErrorKind errorKind = ErrorKind::Internal; ///< of `error`, when that is not empty
 };

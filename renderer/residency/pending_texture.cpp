@@ -47,8 +47,8 @@ void PendingTexture::begin(gpu::Context& context) {
     setVolumeSampling(*texture_, meta_->grid);
 }
 
-bool PendingTexture::advance(Deadline deadline, const ResidentVolume* source) {
-    if (upload_) return upload_->advance(*texture_, deadline);
+bool PendingTexture::advance(Deadline deadline, SliceReader& reader, const ResidentVolume* source) {
+    if (upload_) return upload_->advance(*texture_, reader, deadline);
     const auto start = std::chrono::steady_clock::now();
     source_ = *source;
     const long sliceTexels = static_cast<long>(dims_.x) * dims_.y;

@@ -28,9 +28,10 @@ public:
     [[nodiscard]] bool begun() const { return texture_.has_value(); } ///< its texture takes bytes() by now
     /// Throws LimitExceeded when the device has no room.
     void begin(gpu::Context& context);
-    /// At least one chunk, then as many as begin before the deadline. True when the texture is whole.
+    /// Samples: as VolumeUpload::advance. Gradients: at least one step, then as many as begin before the
+    /// deadline. True when the texture is whole.
     /// \param source  of gradients: the resident samples
-    [[nodiscard]] bool advance(Deadline deadline, const ResidentVolume* source);
+    [[nodiscard]] bool advance(Deadline deadline, SliceReader& reader, const ResidentVolume* source);
     [[nodiscard]] std::shared_ptr<TextureEntry> finish();
 
     WantedPriority priority = WantedPriority::Visible;

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "gpu/context.h"
 #include "residency/pending_texture.h"
+#include "residency/slice_reader.h"
 #include "residency/texture_table.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ const ResidentVolume& VolumeLease::volume() const { return entry_->volume; }
 ResidencyManager::ResidencyManager(gpu::Context& context, std::shared_ptr<const VolumeProvider> provider,
                                    std::uint64_t budgetBytes)
     : context_(context), provider_(std::move(provider)), budgetBytes_(budgetBytes),
-      table_(std::make_unique<TextureTable>()) {}
+      reader_(std::make_unique<SliceReader>(provider_)), table_(std::make_unique<TextureTable>()) {}
 
 ResidencyManager::~ResidencyManager() = default;
 
@@ -86,7 +87,7 @@ bool ResidencyManager::advanceToLease(PendingTexture& pending, Deadline deadline
                                       const ResidentVolume* source) {
     try {
         if (!pending.begun()) beginAtAnyPrice(pending);
-        if (!pending.advance(deadline, source)) return false;
+        if (!pending.advance(deadline, *reader_, source)) return false;
     } catch (...) {
         dequeue(pending);
         throw;
@@ -219,7 +220,7 @@ void ResidencyManager::advanceInBackground(PendingTexture& pending, Deadline dea
             if (!source) return dequeue(pending); // evicted since: whoever still wants it asks again
         }
         if (!pending.begun() && !beginInBackground(pending)) return dequeue(pending);
-        if (pending.advance(deadline, source ? &source->volume() : nullptr)) complete(pending);
+        if (pending.advance(deadline, *reader_, source ? &source->volume() : nullptr)) complete(pending);
     } catch (const std::exception& error) {
         // The tile that needs it meets the same error and shows it.
         logWarning("'" + pending.key().volume.dataset +

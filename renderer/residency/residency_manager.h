@@ -1,6 +1,7 @@
 // Which volumes and gradients are 3D textures on the GPU: one texture per VolumeKey and kind however many
 // cells show it, within a byte budget. What is least wanted goes first, and of that the least recently used.
-// Textures can be brought in some slices at a time, so that no frame waits for a whole one.
+// Textures can be brought in some slices at a time, so that no frame waits for a whole one; a thread of their
+// own reads them, so that none waits for a disk.
 #pragma once
 
 #include "residency/residency_state.h"
@@ -21,6 +22,7 @@
 namespace voxsheet {
 
 class PendingTexture;
+class SliceReader;
 class TextureTable;
 struct TextureKey;
 
@@ -54,7 +56,7 @@ public:
     /// acquire.
     [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
                                                const DerivedTextureBuilder& build);
-    /// As acquire and acquireGradients, but stops at the deadline (after one chunk at least): empty as long
+    /// As acquire and acquireGradients, but stops at the deadline, waiting for a disk or not: empty as long
     /// as it must be called again.
     [[nodiscard]] std::optional<VolumeLease> acquireBy(Deadline deadline, const VolumeKey& key,
                                                        FloatTexels floatTexels = FloatTexels::Full,
@@ -86,8 +88,8 @@ public:
                  SamplesUse use = SamplesUse::Drawing);
     /// Likewise; waits in the queue for the volume's own samples, which are queued too.
     bool requestGradients(const VolumeKey& key, FloatTexels floatTexels, const DerivedTextureBuilder& build);
-    /// Works on the queue: one chunk at least, then as many as begin before the deadline. False when nothing
-    /// is left to do. An upload that fails, or finds no room, leaves the queue.
+    /// Works on the queue until the deadline, waiting for a disk if it has to. False when nothing is left to
+    /// do. An upload that fails, or finds no room, leaves the queue.
     bool advance(Deadline deadline);
     [[nodiscard]] bool isIdle() const { return queue_.empty(); }
 
@@ -130,6 +132,7 @@ private:
     gpu::Context& context_;
     std::shared_ptr<const VolumeProvider> provider_;
     std::uint64_t budgetBytes_;
+    std::unique_ptr<SliceReader> reader_;
     std::unique_ptr<TextureTable> table_;
     Queue queue_;
     std::uint64_t lastSequence_ = 0;

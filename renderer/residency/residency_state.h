@@ -23,7 +23,7 @@ struct ResidencyState {
     std::uint64_t uploadedBytes = 0; ///< of them
     std::uint64_t evictions = 0;
     double uploadMs = 0.0; ///< host time of conversion and upload, and of building gradients
-    double readMs = 0.0;   ///< host time in the provider
+    double readMs = 0.0;   ///< that the render thread waited for samples to be read
 };
 
 } // namespace voxsheet

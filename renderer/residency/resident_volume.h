@@ -40,7 +40,7 @@ public:
     [[nodiscard]] const ResidentVolume& volume() const;
     /// What it took to bring the texture in, told to the first lease afterwards and 0 to all others.
     double uploadMs = 0.0; ///< host time of conversion and upload, or of building gradients
-    double readMs = 0.0;   ///< host time in the provider
+    double readMs = 0.0;   ///< of waiting for samples to be read
 
 private:
     friend class ResidencyManager;

@@ -11,6 +11,8 @@ namespace {
 /// Staging per chunk: one takes about a millisecond, so that uploads can stop for a frame; larger ones are
 /// not faster.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+/// One chunk is read while the one before it is converted and uploaded.
+constexpr std::size_t kReadsAhead = 2;
 
 class Stopwatch {
 public:
@@ -114,34 +116,59 @@ std::uint64_t VolumeUpload::remainingBytes() const {
     return bytes() / slices * (slices - static_cast<std::uint64_t>(nextSlice_));
 }
 
-bool VolumeUpload::advance(gpu::Texture& texture, Deadline deadline) {
-    do {
-        if (nextSlice_ == volume_.dims.z) {
-            const Stopwatch watch(readMs_);
-            volume_.minMax = std::make_shared<const MinMaxGrid>(provider_.readMinMax(key_));
+int VolumeUpload::slicesOfChunk(int zBegin) const {
+    return std::min(slicesPerChunk(), volume_.dims.z - zBegin);
+}
+
+void VolumeUpload::askAhead(SliceReader& reader) {
+    const std::size_t sliceBytes = static_cast<std::size_t>(volume_.dims.x) *
+                                   static_cast<std::size_t>(volume_.dims.y) * scalarBytes(type_);
+    while (nextAsked_ < volume_.dims.z && reads_.size() < kReadsAhead) {
+        const int slices = slicesOfChunk(nextAsked_);
+        spare_.resize(sliceBytes * static_cast<std::size_t>(slices));
+        reads_.push_back(reader.read({key_, nextAsked_, slices, std::move(spare_)}));
+        spare_ = {};
+        nextAsked_ += slices;
+    }
+    if (nextAsked_ == volume_.dims.z && !minMax_.valid()) minMax_ = reader.readMinMax(key_);
+}
+
+bool VolumeUpload::advance(gpu::Texture& texture, SliceReader& reader, Deadline deadline) {
+    const auto arrived = [&](const auto& read) {
+        const Stopwatch watch(readMs_);
+        if (deadline == Deadline::max()) {
+            read.wait();
             return true;
         }
-        uploadChunk(texture);
+        return read.wait_until(deadline) == std::future_status::ready;
+    };
+    do {
+        askAhead(reader);
+        if (reads_.empty()) {
+            if (!arrived(minMax_)) return false;
+            volume_.minMax = std::make_shared<const MinMaxGrid>(minMax_.get());
+            return true;
+        }
+        if (!arrived(reads_.front())) return false;
+        auto stored = reads_.front().get();
+        reads_.pop_front();
+        uploadChunk(texture, stored);
+        spare_ = std::move(stored);
     } while (std::chrono::steady_clock::now() < deadline);
     return false;
 }
 
-void VolumeUpload::uploadChunk(gpu::Texture& texture) {
+void VolumeUpload::uploadChunk(gpu::Texture& texture, const std::vector<std::byte>& stored) {
     const std::size_t sliceSamples =
         static_cast<std::size_t>(volume_.dims.x) * static_cast<std::size_t>(volume_.dims.y);
     const bool verbatim = isVerbatim(type_, encoding_);
-    const int slices = std::min(slicesPerChunk(), volume_.dims.z - nextSlice_);
+    const int slices = slicesOfChunk(nextSlice_);
     const std::size_t samples = sliceSamples * static_cast<std::size_t>(slices);
-    stored_.resize(samples * scalarBytes(type_));
-    {
-        const Stopwatch watch(readMs_);
-        provider_.readSlices(key_, nextSlice_, slices, stored_);
-    }
     const Stopwatch watch(uploadMs_);
-    std::span<const std::byte> upload = stored_;
+    std::span<const std::byte> upload = stored;
     if (!verbatim) {
         texels_.resize(samples * texelFormatBytes(encoding_.format));
-        encodeTexels(type_, encoding_, stored_, texels_);
+        encodeTexels(type_, encoding_, stored, texels_);
         upload = texels_;
     }
     texture.upload({0, 0, nextSlice_}, {volume_.dims.x, volume_.dims.y, slices}, GL_RED,

@@ -3,11 +3,14 @@
 
 #include "gpu/context.h"
 #include "residency/resident_volume.h"
+#include "residency/slice_reader.h"
 #include "volume/texture_encoding.h"
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <future>
 #include <vector>
 
 namespace voxsheet {
@@ -27,18 +30,21 @@ public:
     [[nodiscard]] bool
     exceedsDevice(const gpu::Context& context) const; ///< more texels on an axis than it takes
     [[nodiscard]] gpu::Texture createTexture(gpu::Context& context) const;
-    /// Reads, converts and uploads chunks of slices, and reads the min-max grid at last: at least one chunk,
-    /// then as many as begin before the deadline. True when all is done.
-    [[nodiscard]] bool advance(gpu::Texture& texture, Deadline deadline);
+    /// Converts and uploads chunks of slices as the reader brings them, and takes the min-max grid at last;
+    /// up to the deadline it waits for the reader. At least one chunk if one has been read, then as many as
+    /// begin before the deadline. True when all is done. Throws what reading threw.
+    [[nodiscard]] bool advance(gpu::Texture& texture, SliceReader& reader, Deadline deadline);
 
     [[nodiscard]] const ResidentVolume& volume() const { return volume_; } ///< without its texture
     [[nodiscard]] std::uint64_t remainingBytes() const;                    ///< of texels
     [[nodiscard]] double uploadMs() const { return uploadMs_; }
-    [[nodiscard]] double readMs() const { return readMs_; }
+    [[nodiscard]] double readMs() const { return readMs_; } ///< spent in waiting for the reader
 
 private:
     [[nodiscard]] int slicesPerChunk() const;
-    void uploadChunk(gpu::Texture& texture);
+    [[nodiscard]] int slicesOfChunk(int zBegin) const;
+    void askAhead(SliceReader& reader);
+    void uploadChunk(gpu::Texture& texture, const std::vector<std::byte>& stored);
 
     const VolumeProvider& provider_;
     VolumeKey key_;
@@ -46,8 +52,11 @@ private:
     TextureEncoding encoding_;
     ResidentVolume volume_;
     int nextSlice_ = 0;
-    std::vector<std::byte> stored_; ///< staging, from the first chunk on
-    std::vector<std::byte> texels_;
+    int nextAsked_ = 0;                                     ///< slice
+    std::deque<std::future<std::vector<std::byte>>> reads_; ///< from nextSlice_ on, a chunk each
+    std::future<MinMaxGrid> minMax_;
+    std::vector<std::byte> spare_;  ///< a buffer to read into
+    std::vector<std::byte> texels_; ///< staging, from the first chunk on
     double uploadMs_ = 0.0;
     double readMs_ = 0.0;
 };

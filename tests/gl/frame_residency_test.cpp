@@ -5,6 +5,7 @@
 #include "gl_fixture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -23,10 +24,12 @@ std::string nameOf(int i) { return "v" + std::to_string(i); }
 class SlowProvider : public MemoryVolumeProvider {
 public:
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override {
-        if (key.level == 0) std::this_thread::sleep_for(delay);
+        if (failing) throw IoError("the disk", "it gave nothing", "try again");
+        if (key.level == 0) std::this_thread::sleep_for(delay.load());
         MemoryVolumeProvider::readSlices(key, zBegin, zCount, out);
     }
-    std::chrono::milliseconds delay{0};
+    std::atomic<std::chrono::milliseconds> delay{std::chrono::milliseconds(0)};
+    std::atomic<bool> failing{false};
 };
 
 class FrameResidency : public ::testing::Test {
@@ -194,30 +197,40 @@ TEST_F(FrameResidency, WhatIsWantedSoonIsBroughtInWhileNothingIsDrawn) {
     EXPECT_EQ(draw(thread, tile(1), LevelChoice::AtHand).level, 0);
 }
 
-TEST_F(FrameResidency, AnUrgentFrameDoesNotWaitForAWholeUpload) {
-    // 16 chunks of 50 ms: 0.8 s to bring in.
+TEST_F(FrameResidency, AnUrgentFrameWaitsForNoDisk) {
+    // 16 chunks of 200 ms: 3 s to bring in.
     addVolume(*provider_, "slow", glm::ivec3(256, 256, kDim), ScalarType::F32,
               [](int x, int, int) { return static_cast<double>(x); });
     RenderThread thread(provider_, {});
     ASSERT_EQ(draw(thread, tile(0), LevelChoice::Exact).error, "");
-    provider_->delay = std::chrono::milliseconds(50);
+    provider_->delay = std::chrono::milliseconds(200);
     auto slow = thread.submit(frameOf({frontTile("slow", 256, 255.0, kPixels)}, LevelChoice::Exact),
                               FramePriority::Export);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    double longest = 0.0;
-    int frames = 0;
+    std::vector<double> times;
     while (slow.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
         const auto start = std::chrono::steady_clock::now();
         ASSERT_EQ(draw(thread, tile(0), LevelChoice::AtHand).error, "");
-        longest = std::max(
-            longest,
+        times.push_back(
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-        ++frames;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     EXPECT_EQ(slow.get().tiles.at(0).error, "");
-    EXPECT_GT(frames, 4);
-    // One chunk before it and one after it, and a loaded machine; the whole upload takes 800 ms.
-    EXPECT_LT(longest, 400.0);
+    EXPECT_GT(times.size(), 10U);
+    // The median, for the machine may be busy: a frame that waited for a chunk would take 200 ms, as most
+    // did.
+    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
+                     times.end());
+    EXPECT_LT(times[times.size() / 2], 100.0);
+}
+
+TEST_F(FrameResidency, AFailedReadIsTheTilesError) {
+    RenderThread thread(provider_, {});
+    provider_->failing = true;
+    const auto failed = draw(thread, tile(1), LevelChoice::Exact);
+    EXPECT_NE(failed.error.find("disk"), std::string::npos) << failed.error;
+    provider_->failing = false;
+    EXPECT_EQ(draw(thread, tile(1), LevelChoice::Exact).error, "") << "it is asked for anew";
 }
 
 } // namespace

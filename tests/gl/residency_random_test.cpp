@@ -205,7 +205,8 @@ TEST_F(ResidencyRandom, AnUploadGoesOnInSlicesAndIsGivenUpWhenNobodyWantsIt) {
     EXPECT_EQ(left, std::uint64_t{512} * 512 * slices * 4);
     while (manager.advance(now()) && calls < 10) {
         ++calls;
-        EXPECT_EQ(left - manager.state().queuedBytes, std::uint64_t{512} * 512 * 4) << "one chunk a call";
+        EXPECT_LE(left - manager.state().queuedBytes, std::uint64_t{512} * 512 * 4)
+            << "a chunk a call at most";
         left = manager.state().queuedBytes;
     }
     EXPECT_FALSE(manager.isResident(key));

@@ -1,0 +1,52 @@
+// Reads samples on a thread of its own, so that the render thread never waits for a disk any longer than it
+// wants to. Private to this room.
+#pragma once
+
+#include "volume/volume_provider.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace voxsheet {
+
+/// Slices [zBegin, zBegin + zCount) of a level.
+struct SliceRequest {
+    VolumeKey key;
+    int zBegin = 0;
+    int zCount = 0;
+    std::vector<std::byte> buffer; ///< what they are read into, given back as the result; of their size
+};
+
+/// Requests are served one after another, in their order. Its members may be called from any thread.
+class SliceReader {
+public:
+    explicit SliceReader(std::shared_ptr<const VolumeProvider> provider);
+    /// Waits for the request that is being served; those after it are dropped.
+    ~SliceReader();
+    SliceReader(const SliceReader&) = delete;
+    SliceReader& operator=(const SliceReader&) = delete;
+
+    /// The futures throw what the provider throws.
+    [[nodiscard]] std::future<std::vector<std::byte>> read(SliceRequest request);
+    [[nodiscard]] std::future<MinMaxGrid> readMinMax(VolumeKey key);
+
+private:
+    template <typename Result, typename Work>
+    [[nodiscard]] std::future<Result> enqueue(Work work);
+    void run();
+
+    std::shared_ptr<const VolumeProvider> provider_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::deque<std::packaged_task<void()>> waiting_;
+    bool ending_ = false;
+    std::thread thread_;
+};
+
+} // namespace voxsheet
