@@ -84,6 +84,25 @@ TEST_F(ApiResources, StateListsCellsWithStyles) {
     EXPECT_EQ(sheet.at("cells").at(0).at("style").at("camera.azimuth").at("origin"), "default");
 }
 
+TEST_F(ApiResources, StateOfOwnStylesSaysTheSameInFewerBytes) {
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/cells/B1", R"({"camera.azimuth": 77})").status, 200);
+    EXPECT_EQ(program_->ask("PATCH", kSheet + "/style", R"({"camera.fov": 25})").status, 200);
+    const auto all = program_->get("/api/v1/state");
+    const auto own = program_->get("/api/v1/state?styles=own");
+    EXPECT_LT(2 * own.body.size(), all.body.size());
+    const auto sheet = own.json().at("sheets").at(0);
+    const auto whole = all.json().at("sheets").at(0);
+    for (std::size_t i = 0; i < whole.at("cells").size(); ++i) {
+        auto style = sheet.at("style");
+        style.update(sheet.at("cells").at(i).at("style"));
+        EXPECT_EQ(style, whole.at("cells").at(i).at("style")) << i;
+    }
+    EXPECT_EQ(sheet.at("cells").at(1).at("style").size(), 1U);
+    EXPECT_EQ(program_->get("/api/v1/state?styles=none").status, 400);
+    static_cast<void>(program_->ask("POST", "/api/v1/undo"));
+    static_cast<void>(program_->ask("POST", "/api/v1/undo"));
+}
+
 TEST_F(ApiResources, StylesInheritHideAndReset) {
     EXPECT_EQ(program_->ask("PATCH", kSheet + "/cells/B1", R"({"camera.azimuth": 77})").status, 200);
     const auto edit = program_->ask("PATCH", kSheet + "/style?gesture=g1", R"({"camera.azimuth": 12})");

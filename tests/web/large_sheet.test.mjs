@@ -72,6 +72,28 @@ test("scrolling brings other pictures, and back again costs no rendering", async
     assert.equal(again, frames, "pictures that the page had already were sent again");
 });
 
+test("the grid zooms out to more cells and in to fewer, and keeps the active one in view", async () => {
+    await page.locator('[data-title-of="B2"]').click();
+    const fitting = (await state()).shown.length;
+    const widthOf = (cell) => page.evaluate((name) => document.querySelector(`[data-cell="${name}"]`).getBoundingClientRect().width, cell);
+    const before = await widthOf("B2");
+    for (let i = 0; i < 4; ++i) await page.keyboard.press("Shift+Z");
+    await waitUntil(page, () => document.querySelector('[data-cell="B2"]').getBoundingClientRect().width < 100);
+    await waitUntil(page, (count) => window.voxsheet.app.sizes.visibleTiles("").length > 2 * count, fitting);
+    await settled(page, (await state()).shown);
+    for (let i = 0; i < 8; ++i) await page.getByRole("button", { name: "Larger tiles, fewer cells" }).click();
+    await waitUntil(page, (width) => document.querySelector('[data-cell="B2"]').getBoundingClientRect().width > 2 * width, before);
+    await waitUntil(page, (count) => window.voxsheet.app.sizes.visibleTiles("").length < count, fitting);
+    await page.locator('[data-header="B"]').hover();
+    await page.keyboard.down("Control");
+    await page.mouse.wheel(0, 100);
+    await page.keyboard.up("Control");
+    await page.locator('[data-title-of="B2"]').click();
+    await page.keyboard.press("0");
+    await waitUntil(page, (width) => document.querySelector('[data-cell="B2"]').getBoundingClientRect().width === width, before);
+    assert.deepEqual(page.problems, []);
+});
+
 test("arrow keys reach cells that were out of view", async () => {
     await page.locator('[data-title-of="A1"]').click();
     for (let i = 0; i < 15; ++i) await page.keyboard.press("ArrowDown");

@@ -80,6 +80,14 @@ Response saveDocument(const ApiContext& context, const Request& request) {
     return jsonAnswer(nlohmann::json{{"path", file.string()}, {"version", context.engine.version()}});
 }
 
+StyleDetail styleDetail(const Request& request) {
+    const auto word = request.query.text("styles").value_or("all");
+    if (word == "all") return StyleDetail::All;
+    if (word == "own") return StyleDetail::Own;
+    throw InvalidInput("styles '" + word + "'", "there is no such detail", "choose all or own")
+        .withField("styles");
+}
+
 } // namespace
 
 void addWorkbookRoutes(Router& router, const ApiContext& context) {
@@ -108,9 +116,15 @@ void addWorkbookRoutes(Router& router, const ApiContext& context) {
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/state",
-         .handler = [&context](Request&) { return jsonAnswer(workbookState(context.engine)); },
+         .handler =
+             [&context](Request& request) {
+                 return jsonAnswer(workbookState(context.engine, styleDetail(request)));
+             },
          .summary =
              "Everything a page needs after a change: document, cells, their states and resolved styles",
+         .query = {{"styles", "string",
+                    "all (every key of every cell), or own: a sheet's style once, and of a cell only what "
+                    "column, row or cell set"}},
          .answerDoc = "{version, canUndo, canRedo, workbook, sheets}"});
     const auto step = [&](const char* pattern, const char* summary, bool (engine::Engine::*act)()) {
         router.add({.method = "POST",

@@ -40,6 +40,17 @@ nlohmann::json titlesJson(const std::map<int, sheet::Header>& headers, std::stri
     return titles;
 }
 
+sheet::ResolvedValues setBelowTheSheet(const sheet::ResolvedValues& values) {
+    sheet::ResolvedValues own;
+    for (const auto& [key, resolved] : values) {
+        const auto kind = resolved.origin.kind;
+        if (kind == sheet::LayerKind::Column || kind == sheet::LayerKind::Row ||
+            kind == sheet::LayerKind::Cell)
+            own.emplace(key, resolved);
+    }
+    return own;
+}
+
 } // namespace
 
 nlohmann::json valuesJson(const sheet::ResolvedValues& values) {
@@ -77,7 +88,7 @@ nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
 }
 
 nlohmann::json sheetState(const engine::Engine& engine, const sheet::Workbook& workbook,
-                          const sheet::Sheet& sheet) {
+                          const sheet::Sheet& sheet, StyleDetail detail) {
     std::map<sheet::Address, engine::CellStatus> statuses;
     for (auto& status : engine.cellStatuses(workbook, sheet.name))
         statuses[status.cell] = std::move(status);
@@ -93,23 +104,27 @@ nlohmann::json sheetState(const engine::Engine& engine, const sheet::Workbook& w
             const auto resolved = sheet::resolveStyle(engine.keys(), sheet, address);
             auto entry = cellState(address, cell != nullptr ? *cell : blank,
                                    status != statuses.end() ? &status->second : nullptr, resolved.style);
-            entry["style"] = valuesJson(resolved.values);
+            entry["style"] =
+                valuesJson(detail == StyleDetail::All ? resolved.values : setBelowTheSheet(resolved.values));
             cells.push_back(std::move(entry));
         }
-    return {{"name", sheet.name},
-            {"title", sheet.title},
-            {"rows", sheet.rows},
-            {"columns", sheet.columns},
-            {"columnTitles", titlesJson(sheet.columnHeaders, &sheet::columnName)},
-            {"rowTitles", titlesJson(sheet.rowHeaders, &sheet::rowName)},
-            {"cells", std::move(cells)}};
+    nlohmann::json out{{"name", sheet.name},
+                       {"title", sheet.title},
+                       {"rows", sheet.rows},
+                       {"columns", sheet.columns},
+                       {"columnTitles", titlesJson(sheet.columnHeaders, &sheet::columnName)},
+                       {"rowTitles", titlesJson(sheet.rowHeaders, &sheet::rowName)},
+                       {"cells", std::move(cells)}};
+    if (detail == StyleDetail::Own)
+        out["style"] = valuesJson(sheet::resolveLayer(engine.keys(), sheet, sheet::Layer::sheet()));
+    return out;
 }
 
-nlohmann::json workbookState(const engine::Engine& engine) {
+nlohmann::json workbookState(const engine::Engine& engine, StyleDetail detail) {
     const auto workbook = engine.snapshot();
     auto sheets = nlohmann::json::array();
     for (const auto& sheet : workbook->sheets)
-        sheets.push_back(sheetState(engine, *workbook, sheet));
+        sheets.push_back(sheetState(engine, *workbook, sheet, detail));
     return {{"version", workbook->version},
             {"canUndo", engine.canUndo()},
             {"canRedo", engine.canRedo()},

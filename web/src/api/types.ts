@@ -156,6 +156,8 @@ export interface SheetState {
     title?: string;
     columnTitles?: Record<string, string>;
     rowTitles?: Record<string, string>;
+    /** Of all cells, where their column, row or they themselves say nothing else. */
+    style?: Record<string, ResolvedValue>;
     cells: CellState[];
 }
 

@@ -1,9 +1,17 @@
 // The workbook as a whole: state after a change, undo and redo, saving.
 import { getJson, sendJson } from "./http";
-import type { BookState, EditAnswer } from "./types";
+import type { BookState, CellState, EditAnswer, SheetState } from "./types";
 
-export function getState(): Promise<BookState> {
-    return getJson<BookState>("api/v1/state");
+/** Cells come with what they do not share with their sheet; a cell that has nothing of its own shares the sheet's object. */
+function withWholeStyles(sheet: SheetState): SheetState {
+    const shared = sheet.style ?? {};
+    const whole = (own: CellState["style"]): CellState["style"] => (Object.keys(own).length === 0 ? shared : { ...shared, ...own });
+    return { ...sheet, cells: sheet.cells.map((cell) => ({ ...cell, style: whole(cell.style) })) };
+}
+
+export async function getState(): Promise<BookState> {
+    const book = await getJson<BookState>("api/v1/state?styles=own");
+    return { ...book, sheets: book.sheets.map(withWholeStyles) };
 }
 
 export function getWorkbook(): Promise<unknown> {

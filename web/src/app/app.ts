@@ -15,6 +15,7 @@ import { ViewSender, type ViewBody } from "../stream/view_sender";
 import { CellActions } from "./cell_actions";
 import { ClipActions } from "./clip_actions";
 import { DatasetActions } from "./dataset_actions";
+import { GridActions } from "./grid_actions";
 import { LevelActions } from "./level_actions";
 import { Notices } from "./notices";
 import { PlaneActions } from "./plane_actions";
@@ -36,6 +37,7 @@ export class App {
     readonly clips = new ClipActions(this.store, this.styles, this.view, this.notices);
     readonly levels = new LevelActions(this.store, this.styles, this.notices);
     readonly keyEdits = new KeyEdits(this.styles, this.view);
+    readonly grid = new GridActions(this.store, () => document.querySelector<HTMLElement>(".grid-scroll"));
     readonly planes = new PlaneActions(this.store, this.styles, this.view, this.keyEdits, this.sync, this.notices);
 
     readonly painter = new TilePainter({

@@ -117,6 +117,13 @@ class Shortcuts {
             case "p":
                 void this.app.planes.beside();
                 return true;
+            case "z":
+            case "Z":
+                this.app.grid.step(event.shiftKey ? -1 : 1);
+                return true;
+            case "0":
+                this.app.grid.fit();
+                return true;
             case "Delete":
                 void cells.clearSelected();
                 return true;

@@ -23,6 +23,8 @@ export interface PageSlice {
     /** A gesture is under way: the server draws for speed. */
     moving: boolean;
     enlarged: string | null;
+    /** Of the tiles' size; 1: what fits the window. */
+    gridZoom: number;
     leftPanel: LeftPanel | null;
     /** Why the save panel asks for a file. */
     saveReason: string;
@@ -47,6 +49,7 @@ export const newPage: PageSlice = {
     live: {},
     moving: false,
     enlarged: null,
+    gridZoom: 1,
     leftPanel: "datasets",
     saveReason: "",
     inspector: true,
@@ -68,6 +71,7 @@ export type PageAction =
     | { type: "page/live"; live: Record<string, StylePatch> }
     | { type: "page/moving"; moving: boolean }
     | { type: "page/enlarge"; cell: string | null }
+    | { type: "page/gridZoom"; zoom: number }
     | { type: "page/leftPanel"; panel: LeftPanel | null; reason?: string }
     | { type: "page/inspector"; open: boolean }
     | { type: "page/help"; open: boolean }
@@ -102,6 +106,8 @@ export function reducePage(state: PageSlice, action: PageAction): PageSlice {
             return state.moving === action.moving ? state : { ...state, moving: action.moving };
         case "page/enlarge":
             return { ...state, enlarged: action.cell };
+        case "page/gridZoom":
+            return { ...state, gridZoom: action.zoom };
         case "page/leftPanel":
             return { ...state, leftPanel: action.panel, saveReason: action.reason ?? "" };
         case "page/inspector":

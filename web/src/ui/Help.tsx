@@ -16,6 +16,7 @@ const gestures: [string, string][] = [
     ["r, double-click on the title", "reset the view"],
     ["f", "fit"],
     ["Enter, double-click on a picture; Esc", "enlarge the cell; back"],
+    ["z, Shift + z, 0; Ctrl + wheel on a header", "larger tiles, smaller ones (more cells in the window), as many as fit"],
     ["middle drag, w + drag", "window (across) and level (up, down)"],
     ["c", "show or hide the handles of clip planes, box and object"],
     ["drag a clip handle", "move, turn or scale it, in all cells that share it; Alt: this cell only; Esc: as it was"],

@@ -2,6 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { columnName, formatAddress, parseAddress, type Address } from "../model/address";
 import { gridWindow, linesShown, sameWindow, type GridWindow } from "../model/grid_window";
+import { gridHeader, tileSize } from "../model/grid_zoom";
 import { isSelected, moveSelection, selectColumn, selectRow, selectSheet, type Selection } from "../model/selection";
 import type { SheetState } from "../api/types";
 import { currentSheet } from "../state/book";
@@ -11,11 +12,6 @@ import { focusHeading, focusTitle, insertReference } from "./FormulaBar";
 import { LevelsPanel } from "./levels/LevelsPanel";
 import { SheetTabs } from "./SheetTabs";
 import { Tile } from "./Tile";
-
-const smallestTile = { width: 150, height: 140 };
-const rowHeaderPixels = 32;
-const columnHeaderPixels = 28;
-const titlePixels = 26;
 
 function modifiersOf(event: MouseEvent): { extend: boolean; toggle: boolean } {
     return { extend: event.shiftKey, toggle: event.ctrlKey || event.metaKey };
@@ -120,22 +116,13 @@ interface Area {
     element: HTMLElement;
 }
 
-/** Columns fill the width and rows the height, down to a size below which the grid scrolls. */
-function useTileSize(sheet: SheetState, area: { width: number; height: number }): { width: number; height: number } {
-    const width = Math.max(smallestTile.width, (area.width - rowHeaderPixels) / Math.max(1, sheet.columns));
-    const fit = (area.height - columnHeaderPixels) / Math.max(1, sheet.rows);
-    // The angle of view is that of the height: a picture higher than wide would cut the volume off at its sides.
-    const height = Math.max(smallestTile.height, Math.min(fit, width + titlePixels));
-    return { width: Math.floor(width), height: Math.floor(height) };
-}
-
 /** The part of the grid that is in view; the others have no elements. */
 function useWindow(sheet: SheetState, tile: { width: number; height: number }, area: Area): GridWindow {
     const measures = {
         columns: sheet.columns,
         rows: sheet.rows,
         tile,
-        header: { width: rowHeaderPixels, height: columnHeaderPixels },
+        header: gridHeader,
     };
     const now = (): GridWindow => {
         const { scrollLeft, scrollTop } = area.element;
@@ -168,7 +155,8 @@ function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
     const { store } = useApp();
     const enlarged = useSelect((state) => state.page.enlarged);
     const onKeyDown = useHeaderKeys(sheet);
-    const size = useTileSize(sheet, area);
+    const zoom = useSelect((state) => state.page.gridZoom);
+    const size = tileSize(sheet, area, zoom);
     const shown = useWindow(sheet, size, area);
     const kept = useKeptCells().filter((cell) => cell.column < sheet.columns && cell.row < sheet.rows);
     const columns = linesShown(shown.firstColumn, shown.lastColumn, kept.map((cell) => cell.column));
@@ -177,8 +165,8 @@ function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
         (row >= shown.firstRow && row <= shown.lastRow && column >= shown.firstColumn && column <= shown.lastColumn) ||
         kept.some((cell) => cell.row === row && cell.column === column);
     const style = {
-        gridTemplateColumns: `${rowHeaderPixels}px repeat(${sheet.columns}, ${size.width}px)`,
-        gridTemplateRows: `${columnHeaderPixels}px repeat(${sheet.rows}, ${size.height}px)`,
+        gridTemplateColumns: `${gridHeader.width}px repeat(${sheet.columns}, ${size.width}px)`,
+        gridTemplateRows: `${gridHeader.height}px repeat(${sheet.rows}, ${size.height}px)`,
     };
     return (
         <div
@@ -268,6 +256,22 @@ function useAreaSize() {
     return { area, size };
 }
 
+/** Ctrl + wheel on a header zooms the grid, rather than the browser's page. */
+function useHeaderWheel(area: { current: HTMLElement | null }): void {
+    const { grid } = useApp();
+    useEffect(() => {
+        const element = area.current!;
+        const onWheel = (event: WheelEvent): void => {
+            const onHeader = (event.target as HTMLElement).closest(".column-header, .row-header, .corner") !== null;
+            if (!onHeader || !(event.ctrlKey || event.metaKey) || event.deltaY === 0) return;
+            event.preventDefault();
+            grid.step(event.deltaY < 0 ? 1 : -1);
+        };
+        element.addEventListener("wheel", onWheel, { passive: false });
+        return () => element.removeEventListener("wheel", onWheel);
+    }, []);
+}
+
 export function Sheet() {
     const sheet = useSelect((state) => currentSheet(state.book));
     const { area, size } = useAreaSize();
@@ -282,6 +286,7 @@ export function Sheet() {
         if (event.type === "click") swallowing.current = false;
     };
     const swallowing = useRef(false);
+    useHeaderWheel(area);
     return (
         <main class="sheet-area">
             <div

@@ -1,5 +1,5 @@
 // The sheets of the workbook, and how many columns the one on show has.
-import { Minimize2, Minus, Pause, Play, Plus, StepBack, StepForward } from "lucide-preact";
+import { Maximize2, Minimize2, Minus, Pause, Play, Plus, StepBack, StepForward, ZoomIn, ZoomOut } from "lucide-preact";
 import { currentSheet } from "../state/book";
 import { useApp, useSelect } from "./app_context";
 import { IconButton } from "./IconButton";
@@ -34,6 +34,7 @@ export function SheetTabs() {
     ).split("\n");
     const sheet = useSelect((state) => currentSheet(state.book));
     const enlarged = useSelect((state) => state.page.enlarged);
+    const zoom = useSelect((state) => state.page.gridZoom);
     if (!sheet) return null;
     return (
         <div class="sheet-tabs">
@@ -60,6 +61,11 @@ export function SheetTabs() {
                     onClick={() => app.view.enlarge(null)}
                 />
             )}
+            <div class="stepper" role="group" aria-label="Size of the tiles">
+                <IconButton icon={ZoomOut} label="Smaller tiles, more cells" keys="Shift + Z" onClick={() => app.grid.step(-1)} />
+                {zoom !== 1 && <IconButton icon={Maximize2} label="Fit the tiles to the window" keys="0" onClick={() => app.grid.fit()} />}
+                <IconButton icon={ZoomIn} label="Larger tiles, fewer cells" keys="Z" onClick={() => app.grid.step(1)} />
+            </div>
             <div class="stepper" role="group" aria-label="Columns">
                 <span>columns</span>
                 <IconButton
