@@ -60,8 +60,9 @@ test("scrolling brings other pictures, and back again costs no rendering", async
     await waitUntil(page, () => window.voxsheet.store.get().tiles.P16?.final);
     assert.ok((await look(page, "P16")).colours > 10);
     assert.ok((await state()).elements < 80);
-    const shown = (await state()).shown;
-    await settled(page, shown);
+    // What came into view last is drawn last, a little beyond the edge as well.
+    await waitUntil(page, () => window.voxsheet.app.sizes.visibleTiles("").every(({ cell }) => window.voxsheet.store.get().tiles[cell]?.final));
+    await page.waitForTimeout(300);
     const frames = await page.evaluate(() => window.voxsheet.stats.recent.length && window.voxsheet.stats.recent.at(-1).seq);
     await scrollTo(0, 0);
     // A canvas begins with one pixel.
