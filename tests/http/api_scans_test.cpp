@@ -85,4 +85,14 @@ TEST_F(ApiScans, CellsSayWhatTheirCamerasLengthsReferTo) {
     EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
 }
 
+TEST(ApiScansProgram, PlanesCanBeAskedForOnTheCommandLine) {
+    const ServedProgram program(2, {"--columns", "1", "--planes", "--set", "plane.crosshair=0.2,0.3,0.4"});
+    ASSERT_TRUE(program.waitForImports());
+    EXPECT_EQ(program.get(kSheet).json().at("columns"), 4);
+    const auto cell = program.get(kSheet + "/cells/C2").json();
+    EXPECT_EQ(cell.at("plane.axis"), "coronal");
+    EXPECT_EQ(cell.at("state"), "ok");
+    EXPECT_EQ(cell.at("resolved").at("plane.crosshair").at("value"), json::array({0.2, 0.3, 0.4}));
+}
+
 } // namespace

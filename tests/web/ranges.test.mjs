@@ -3,14 +3,17 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { drag, look, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
 import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
-import { writeBalls } from "./volumes.mjs";
+import { twoSteps, writeBalls } from "./volumes.mjs";
+import { writeFile } from "node:fs/promises";
 
 const cells = ["A1", "B1"];
 let folder, server, browser, page;
 
 before(async () => {
     folder = await makeFolder();
-    server = await startServer(folder, [...(await writeBalls(folder, 2, 32)), "--columns", "2", "--set", "technique=plane"]);
+    const series = `${folder}/series.nrrd`;
+    await writeFile(series, twoSteps());
+    server = await startServer(folder, [...(await writeBalls(folder, 2, 32)), series, "--columns", "3", "--set", "technique=plane"]);
     browser = await openBrowser();
     page = await openPage(browser, server.url);
     await settled(page, cells);
@@ -123,5 +126,17 @@ test("colour bars say the scale, and the colours of what lies outside the range"
     const block = page.locator('[data-cell="A1"] .bar-end[title="below the range"]');
     await block.waitFor();
     assert.equal(await block.evaluate((element) => getComputedStyle(element).backgroundColor), "rgb(255, 0, 0)");
+});
+
+test("with several time steps, data means the one on show, and over time all of them", async () => {
+    await select(page, "C1");
+    await setScope(page, "cell");
+    const before = await valueOf("C1", "range.max");
+    await rescale("data");
+    assert.equal(await waitForStyle(page, "C1", "range.max", before), 70);
+    assert.equal(await valueOf("C1", "range.mode"), "fixed");
+    await rescale("over time");
+    await waitForStyle(page, "C1", "range.mode", "fixed");
+    await waitUntil(page, () => window.voxsheet.store.get().book.bars.C1?.high === 170);
     assert.deepEqual(page.problems, []);
 });

@@ -34,6 +34,13 @@ export function twoSigns(n) {
     return Buffer.concat([Buffer.from(header, "latin1"), data]);
 }
 
+/** Bytes of an 8^3 8-bit NRRD of two time steps: 10 x, and 100 more in the second. */
+export function twoSteps() {
+    const header = `NRRD0004\ntype: uint8\ndimension: 4\nsizes: 8 8 8 2\nkinds: domain domain domain time\nspacings: 1 1 1 1\nencoding: raw\n\n`;
+    const data = Buffer.alloc(2 * 512, 0).map((_, at) => 10 * (at % 8) + (at < 512 ? 0 : 100));
+    return Buffer.concat([Buffer.from(header, "latin1"), data]);
+}
+
 /** A header that promises far more than there is. */
 export function truncated() {
     return Buffer.from("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 64 64 64\nencoding: raw\n\nshort", "latin1");

@@ -60,6 +60,10 @@ function TileProgress({ progress, label }: { progress: number; label: string }) 
     );
 }
 
+function pictureKeys(cell: CellState | undefined): string {
+    return isPlane(cell) ? "Arrow keys move it, brackets step through the volume" : "Arrow keys turn it";
+}
+
 function ProbeChip({ cell }: { cell: string }) {
     const found = useSelect((state) => state.page.probe?.values.find((value) => value.cell === cell) ?? null);
     if (!found) return null;
@@ -175,7 +179,7 @@ export function Tile({ address }: { address: Address }) {
                 role={clipHandles ? "group" : "img"}
                 aria-label={
                     drawn
-                        ? `Picture of ${name}: ${title}. Arrow keys turn it, plus and minus zoom, Enter enlarges.`
+                        ? `Picture of ${name}: ${title}. ${pictureKeys(cell)}, plus and minus zoom, Enter enlarges.`
                         : `${name}: ${shown.state === "empty" ? "empty" : `${shown.code} ${shown.message}`}`
                 }
                 onDblClick={() => drawn && view.enlarge(enlarged ? null : name)}
