@@ -82,9 +82,13 @@ test("the grid zooms out to more cells and in to fewer, and keeps the active one
     await waitUntil(page, () => document.querySelector('[data-cell="B2"]').getBoundingClientRect().width < 100);
     await waitUntil(page, (count) => window.voxsheet.app.sizes.visibleTiles("").length > 2 * count, fitting);
     await settled(page, (await state()).shown);
+    // Nothing stands on the small pictures, and all of it does on the large one.
+    await page.locator('[data-cell="B2"] .axes-cross').waitFor({ state: "hidden" });
+    assert.ok((await look(page, "B2")).colours > 10);
     for (let i = 0; i < 8; ++i) await page.getByRole("button", { name: "Larger tiles, fewer cells" }).click();
     await waitUntil(page, (width) => document.querySelector('[data-cell="B2"]').getBoundingClientRect().width > 2 * width, before);
     await waitUntil(page, (count) => window.voxsheet.app.sizes.visibleTiles("").length < count, fitting);
+    await page.locator('[data-cell="B2"] .axes-cross').waitFor({ state: "visible" });
     await page.locator('[data-header="B"]').hover();
     await page.keyboard.down("Control");
     await page.mouse.wheel(0, 100);

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { steppedZoom, tilesInView, tileSize } from "../src/model/grid_zoom";
+import { isCramped, steppedZoom, tilesInView, tileSize } from "../src/model/grid_zoom";
 
 const area = { width: 1232, height: 828 };
 const large = { columns: 16, rows: 16 };
@@ -8,6 +8,7 @@ const large = { columns: 16, rows: 16 };
 test("at zoom 1 a small grid fills the window and a large one scrolls", () => {
     assert.deepEqual(tileSize({ columns: 2, rows: 2 }, area, 1), { width: 600, height: 400 });
     assert.deepEqual(tileSize(large, area, 1), { width: 150, height: 140 });
+    assert.ok(!isCramped(tileSize(large, area, 1)) && isCramped(tileSize(large, area, 0.9)));
     assert.deepEqual(tilesInView(large, area, 1), { columns: 8, rows: 5 });
 });
 

@@ -40,10 +40,12 @@ void printTable(const bench::TimeNResult& result) {
         std::printf("%4d %5d %10.1f %10.1f %10.1f %10.1f %10.1f %7.2f %7.2f\n", point.n, point.level,
                     point.ms.value, point.ms.low, point.ms.high, point.uploadMs, point.ioMs,
                     point.rawRatio.value_or(std::nan("")), point.ratio ? point.ratio->value : std::nan(""));
-    for (const auto& transition : result.transitions)
+    for (const auto& transition : result.transitions) {
+        if (!bench::goesOnSteeper(transition)) continue;
         std::printf("after N = %d the slope is R = %.2f (%.2f to %.2f) times what it was, at level %d (%s)\n",
                     transition.bend.lastN, transition.bend.ratio.value, transition.bend.ratio.low,
                     transition.bend.ratio.high, transition.level, transition.cause.c_str());
+    }
     for (const auto& sentence : bench::absentRegimes(result))
         std::printf("%s\n", sentence.c_str());
     std::printf("n_max %d\n", result.nMax);

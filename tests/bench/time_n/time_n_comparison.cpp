@@ -30,17 +30,11 @@ std::string transitionText(const TimeNTransition& transition) {
            (transition.newLevel ? ", to level " + std::to_string(*transition.newLevel) : "") + ")";
 }
 
-/// Where times fell for a while, something else was measured.
-bool isSlopeChange(const TimeNTransition& transition) {
-    const double ratio = transition.bend.ratio.value;
-    return transition.bend.breaksRule || (ratio > 0.0 && std::isfinite(ratio));
-}
-
 std::string transitionsText(const TimeNResult* result) {
     if (result == nullptr) return "not measured";
     std::vector<std::string> texts;
     for (const auto& transition : result->transitions)
-        if (isSlopeChange(transition)) texts.push_back(transitionText(transition));
+        if (goesOnSteeper(transition)) texts.push_back(transitionText(transition));
     return joined(texts, "none");
 }
 
@@ -76,7 +70,7 @@ std::string jsonTransitions(const TimeNResult* result, bool levelChangesOnly) {
     if (result == nullptr) return "null";
     std::vector<std::string> list;
     for (const auto& transition : result->transitions)
-        if (levelChangesOnly ? transition.newLevel.has_value() : isSlopeChange(transition))
+        if (levelChangesOnly ? transition.newLevel.has_value() : goesOnSteeper(transition))
             list.push_back(jsonOf(transition));
     return jsonArray(list);
 }
@@ -120,6 +114,11 @@ std::vector<TimeNComparison> comparisonsOf(std::span<const TimeNResult> results)
         if (place == nullptr) place = &result;
     }
     return comparisons;
+}
+
+bool goesOnSteeper(const TimeNTransition& transition) {
+    const double ratio = transition.bend.ratio.value;
+    return transition.bend.breaksRule || (ratio > 1.0 && std::isfinite(ratio));
 }
 
 std::string nMaxText(const TimeNResult& result) {

@@ -21,6 +21,10 @@ struct TimeNComparison {
 /// In the order in which technique and shading first appear. `results` must outlive it.
 [[nodiscard]] std::vector<TimeNComparison> comparisonsOf(std::span<const TimeNResult> results);
 
+/// Whether the curve goes on more steeply: where it flattens, or times fell for a while, something else was
+/// measured.
+[[nodiscard]] bool goesOnSteeper(const TimeNTransition& transition);
+
 /// "13", or "≥ 64" when nothing broke the rule up to the last N that was measured.
 [[nodiscard]] std::string nMaxText(const TimeNResult& result);
 

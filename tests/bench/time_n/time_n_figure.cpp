@@ -124,9 +124,7 @@ void addPart(PlotPanel& panel, const TimeNResult& result, const TimeUnit& unit, 
 std::vector<PlotRule> bends(const TimeNResult& result) {
     std::vector<PlotRule> rules;
     for (const auto& transition : result.transitions) {
-        const double value = transition.bend.ratio.value;
-        // Where times fell for a while, something else was measured.
-        if (!transition.bend.breaksRule && (value <= 0.0 || std::isinf(value))) continue;
+        if (!goesOnSteeper(transition)) continue;
         char text[160];
         std::snprintf(text, sizeof text, "N = %d: R = %.2f%s%s%s", transition.bend.lastN,
                       transition.bend.ratio.value, transition.cause == "unknown" ? "" : ", ",

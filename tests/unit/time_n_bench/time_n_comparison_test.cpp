@@ -66,6 +66,14 @@ TEST(TimeNComparison, SummaryHasEveryTransitionAndBothLargestN) {
               "\"level_changes\":[{\"n\":8,\"ratio\":3,\"cause\":\"texture budget\",\"level\":1}]}]");
 }
 
+TEST(TimeNComparison, ACurveThatFlattensHasNoTransitionThere) {
+    auto result = invented(ResolutionCriterion::Off, 8, 12);
+    result.transitions.front().bend.breaksRule = false;
+    result.transitions.front().bend.ratio = {0.7, 0.6, 0.8};
+    EXPECT_NE(summaryTable({&result, 1}).find("| vr | none | 8 |"), std::string::npos);
+    EXPECT_EQ(timeNFigure(result).find("R = 0.70"), std::string::npos);
+}
+
 TEST(TimeNComparison, ARunThatIsNotThereIsSaid) {
     const std::vector<TimeNResult> results{invented(ResolutionCriterion::Slope, 8, 12)};
     EXPECT_NE(summaryTable(results).find("| vr | not measured | not measured |"), std::string::npos);

@@ -28,6 +28,11 @@ export function tileSize(grid: { columns: number; rows: number }, area: Size, zo
     };
 }
 
+/** What stands beside and on a picture would cover it. */
+export function isCramped(tile: Size): boolean {
+    return tile.width < smallestFitting.width || tile.height < smallestFitting.height;
+}
+
 /** A step in (1) or out (-1). The zoom stays where a step would change nothing. */
 export function steppedZoom(grid: { columns: number; rows: number }, area: Size, zoom: number, step: 1 | -1): number {
     // Powers of the step, so that in and out again is exactly what it was.

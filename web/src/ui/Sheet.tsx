@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { columnName, formatAddress, parseAddress, type Address } from "../model/address";
 import { gridWindow, linesShown, sameWindow, type GridWindow } from "../model/grid_window";
-import { gridHeader, tileSize } from "../model/grid_zoom";
+import { gridHeader, isCramped, tileSize } from "../model/grid_zoom";
 import { isSelected, moveSelection, selectColumn, selectRow, selectSheet, type Selection } from "../model/selection";
 import type { SheetState } from "../api/types";
 import { currentSheet } from "../state/book";
@@ -170,7 +170,7 @@ function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
     };
     return (
         <div
-            class={`grid ${enlarged ? "has-enlarged" : ""}`}
+            class={`grid ${enlarged ? "has-enlarged" : ""} ${isCramped(size) ? "cramped" : ""}`}
             style={style}
             role="grid"
             aria-label={`Sheet ${sheet.name}`}
