@@ -52,17 +52,21 @@ gpu::ShaderDefines ShadingStage::defines(const ShadingSpec& shading, const Resid
             {"GRADIENT_TEXTURE", gradients != nullptr ? "1" : "0"}};
 }
 
-void ShadingStage::bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
-                        const ResidentVolume* gradients) {
-    const auto& shading = tile.shading;
-    if (!shading.enabled) return;
-    if (gradients != nullptr) gradients->texture->bind(gradientUnit);
+void ShadingStage::bindLight(const gpu::Program& program, const ShadingSpec& shading) {
     program.set("material", glm::vec4(shading.ambient, shading.diffuse, shading.specular, shading.shininess));
     program.set("headLight", static_cast<float>(shading.headLight));
     std::vector<glm::vec4> lights;
     for (const auto& light : shading.lightsView)
         lights.emplace_back(glm::dvec4(light, shading.lightIntensity));
     if (!lights.empty()) program.set("lights", lights);
+}
+
+void ShadingStage::bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
+                        const ResidentVolume* gradients) {
+    const auto& shading = tile.shading;
+    if (!shading.enabled) return;
+    bindLight(program, shading);
+    if (gradients != nullptr) gradients->texture->bind(gradientUnit);
     std::vector<glm::vec4> normals;
     for (const auto& plane : tile.clip.planes)
         normals.emplace_back(glm::dvec4(glm::dmat3(tile.camera.viewFromWorld) * plane.normal, 0.0));

@@ -24,6 +24,8 @@ public:
                                                     const ResidentVolume* gradients);
     static void bind(const gpu::Program& program, const TileSpec& tile, const ResidentVolume& volume,
                      const ResidentVolume* gradients);
+    /// Only what light.glsl needs.
+    static void bindLight(const gpu::Program& program, const ShadingSpec& shading);
 
     /// Fills slices [zBegin, zBegin + zCount) of `rgba16f` with central differences of the volume's texels
     /// per voxel (one-sided at ends that do not wrap), divided by the largest that its texels allow, so that

@@ -14,6 +14,7 @@ gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
     for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
                              ShadingStage::defines(tile.shading, volumes.gradients)})
         defines.insert(defines.end(), more.begin(), more.end());
+    defines.emplace_back("SOLIDS", volumes.solids != nullptr ? "1" : "0");
     defines.emplace_back("SKIP_EMPTY", skipEmptySpace ? "1" : "0");
     return defines;
 }
@@ -24,6 +25,7 @@ void SharedStages::bindFor(const gpu::Program& program, const DrawRequest& reque
     setRayUniforms(program, frame, tile.sizePixels);
     ClipStage::bind(program, tile, placedGrid(volumes.volume.meta->grid, tile.periodic), volumes.clipObject);
     ShadingStage::bind(program, tile, volumes.volume, volumes.gradients);
+    if (volumes.solids != nullptr) volumes.solids->bind(solidsUnit);
 }
 
 } // namespace voxsheet

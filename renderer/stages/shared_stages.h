@@ -22,7 +22,10 @@ struct DrawVolumes {
     const ResidentVolume* clipObject = nullptr;
     const ResidentVolume* colours = nullptr;
     std::vector<const ResidentVolume*> layers{}; ///< as in TileSpec::layers
+    const gpu::Texture* solids = nullptr;        ///< what hides all behind it (solids.glsl)
 };
+
+inline constexpr GLuint solidsUnit = 16;
 
 /// One picture to draw: what TechniqueSet::draw was given, and its rays.
 struct DrawRequest {
@@ -36,9 +39,9 @@ struct DrawRequest {
 struct SharedStages {
     explicit SharedStages(gpu::Context& gpuContext);
 
-    /// Of classification, clipping, shading and SKIP_EMPTY.
+    /// Of classification, clipping, shading, solids and SKIP_EMPTY.
     [[nodiscard]] gpu::ShaderDefines definesFor(const DrawRequest& request) const;
-    /// Binds and sets what classification, clipping, shading and rays need.
+    /// Binds and sets what classification, clipping, shading, solids and rays need.
     void bindFor(const gpu::Program& program, const DrawRequest& request);
 
     gpu::Context& context;

@@ -2,6 +2,7 @@
 // process.
 #pragma once
 
+#include "stages/crystal_spec.h"
 #include "stages/isosurface_spec.h"
 #include "stages/layer_spec.h"
 #include "stages/plane_spec.h"
@@ -45,9 +46,10 @@ struct TileSpec {
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
     PeriodicWindow periodic;                      ///< of the cell's own volume only
     ClipSpec clip;                                ///< not for Plane
-    ShadingSpec shading;                          ///< not for Mip and Plane
+    ShadingSpec shading;                          ///< of volumes not for Mip and Plane
     IsosurfaceSpec isosurface;                    ///< Isosurface only
     LayersSpec layers;                            ///< Raycast only
+    CrystalSpec crystal;                          ///< of the cell's own dataset
     PlaneSpec plane;                              ///< Plane only, which needs an orthographic camera
     FloatTexels floatTexels = FloatTexels::Full;
 };

@@ -5,6 +5,7 @@
 #include "stages/shared_stages.h"
 #include "techniques/isosurface/isosurface.h"
 #include "techniques/mip/mip.h"
+#include "techniques/overlay/crystal_overlay.h"
 #include "techniques/plane/plane.h"
 #include "techniques/raycast/raycast.h"
 #include "techniques/slicing/slicing.h"
@@ -56,6 +57,7 @@ void validate(const TileSpec& tile) {
     validateIsosurface(tile.isosurface);
     validateLayers(tile);
     validatePlane(tile.plane);
+    validateCrystal(tile.crystal);
 }
 
 void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
@@ -69,11 +71,13 @@ void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
 
 class TechniqueSet::Implementation {
 public:
-    explicit Implementation(gpu::Context& context) : stages(context), slicing(context), surface(context) {}
+    explicit Implementation(gpu::Context& context)
+        : stages(context), slicing(context), surface(context), crystal(context) {}
 
     SharedStages stages;
     SlicingTechnique slicing;
     SurfaceTechnique surface;
+    CrystalOverlay crystal;
 
     [[nodiscard]] DerivedTextureBuilder gradientBuilder() {
         return [this](const ResidentVolume& volume, gpu::Texture& texture, int zBegin, int zCount) {
@@ -123,6 +127,7 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
     validatePeriodicWindow(tile.periodic, volumes.volume.meta->grid);
     const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
     const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
+    volumes.solids = implementation_->crystal.draw(stages, request);
     switch (tile.technique) {
     case Technique::Raycast:
         drawRaycast(stages, request);
@@ -143,6 +148,7 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
         drawPlane(stages, request);
         break;
     }
+    if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
     stages.context.checkErrors("drawing a tile");
 }
 

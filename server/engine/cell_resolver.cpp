@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "engine/axis_ticks.h"
 #include "engine/clip_resolver.h"
+#include "engine/crystal_resolver.h"
 #include "engine/plane_resolver.h"
 #include "engine/shading_resolver.h"
 #include "sheet/camera.h"
@@ -258,6 +259,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.level = std::clamp(wanted, 0, meta.levels() - 1);
     spec.technique = drawnTechnique(style.technique);
     spec.periodic = resolvePeriodicWindow(style.periodic, meta.grid);
+    spec.crystal = resolveCrystal(style.crystal, meta);
     const Grid drawn = drawnGrid(meta.grid, spec.periodic);
     const bool flat = style.technique == sheet::Technique::Plane;
     const CameraFrame frame = linked.value_or(ownFrame(drawn));

@@ -1,23 +1,13 @@
 #include "engine/dataset_json.h"
 
 #include "base/errors.h"
-
-#include <array>
+#include "volume/elements.h"
 
 namespace voxsheet::engine {
 
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array<const char*, 119> kSymbols{
-    "",   "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",  "S",
-    "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Ga", "Ge", "As",
-    "Se", "Br", "Kr", "Rb", "Sr", "Y",  "Zr", "Nb", "Mo", "Tc", "Ru", "Rh", "Pd", "Ag", "Cd", "In", "Sn",
-    "Sb", "Te", "I",  "Xe", "Cs", "Ba", "La", "Ce", "Pr", "Nd", "Pm", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho",
-    "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W",  "Re", "Os", "Ir", "Pt", "Au", "Hg", "Tl", "Pb", "Bi", "Po",
-    "At", "Rn", "Fr", "Ra", "Ac", "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md",
-    "No", "Lr", "Rf", "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 
 json vectorJson(const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); }
 
@@ -75,7 +65,7 @@ void addCrystal(json& result, const Crystal& crystal) {
         {vectorJson(crystal.lattice[0]), vectorJson(crystal.lattice[1]), vectorJson(crystal.lattice[2])});
     json atoms = json::array();
     for (const auto& atom : crystal.atoms)
-        atoms.push_back({{"element", elementSymbol(atom.atomicNumber)},
+        atoms.push_back({{"element", elementOf(atom.atomicNumber).symbol},
                          {"number", atom.atomicNumber},
                          {"position", vectorJson(atom.positionWorld)}});
     result["atoms"] = atoms;
@@ -140,11 +130,6 @@ json describeHistogram(const DatasetMeta& meta, int field, int step) {
             {"max", data.statistics.max},
             {"stddev", data.statistics.standardDeviation},
             {"nan", data.statistics.nanCount}};
-}
-
-const char* elementSymbol(int atomicNumber) noexcept {
-    if (atomicNumber < 1 || atomicNumber >= static_cast<int>(kSymbols.size())) return "";
-    return kSymbols[static_cast<std::size_t>(atomicNumber)];
 }
 
 } // namespace voxsheet::engine

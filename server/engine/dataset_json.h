@@ -29,7 +29,4 @@ namespace voxsheet::engine {
 /// such.
 [[nodiscard]] nlohmann::json describeHistogram(const DatasetMeta& meta, int field, int step);
 
-/// "Mg" for 12; "" outside 1..118.
-[[nodiscard]] const char* elementSymbol(int atomicNumber) noexcept;
-
 } // namespace voxsheet::engine

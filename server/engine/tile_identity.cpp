@@ -98,14 +98,25 @@ void addClip(Collector& collector, const ClipSpec& clip) {
     collector.add(clip.object->binary ? 1.0 : 0.0);
 }
 
+bool showsSites(const CrystalSpec& crystal) { return crystal.atoms || crystal.bonds != BondReach::None; }
+
+void addCrystal(Collector& collector, const CrystalSpec& crystal) {
+    collector.add(crystal.cell ? 1.0 : 0.0);
+    collector.add(crystal.atoms ? 1.0 : 0.0);
+    collector.add(static_cast<double>(crystal.bonds));
+    collector.add(showsSites(crystal) ? crystal.radiusScale : 0.0);
+}
+
 void addShading(Collector& collector, const TileSpec& tile) {
     const ShadingSpec& shading = tile.shading;
     const bool shaded =
         shading.enabled && tile.technique != Technique::Mip && tile.technique != Technique::Plane;
-    collector.add(shaded ? 1.0 : 0.0);
-    if (!shaded) return;
+    // Solids are lit in any case, but where a plane cuts them.
+    const bool solids = showsSites(tile.crystal) && tile.technique != Technique::Plane;
+    collector.add(shaded ? 1.0 : solids ? 2.0 : 0.0);
+    if (!shaded && !solids) return;
     // Faces have normals of their own.
-    const bool gradients = tile.technique != Technique::Surface;
+    const bool gradients = shaded && tile.technique != Technique::Surface;
     collector.add(gradients ? static_cast<double>(shading.gradient) : -1.0);
     for (const double number : {shading.ambient, shading.diffuse, shading.specular, shading.headLight})
         collector.add(number);
@@ -200,6 +211,7 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
         addClip(collector, tile.clip);
         collector.add(tile.sampleDistanceVoxels);
     }
+    addCrystal(collector, tile.crystal);
     addShading(collector, tile);
     collector.add(static_cast<double>(tile.floatTexels));
     collector.add(tile.background);

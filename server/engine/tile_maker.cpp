@@ -1,6 +1,7 @@
 #include "engine/tile_maker.h"
 
 #include "base/errors.h"
+#include "engine/crystal_resolver.h"
 #include "engine/isosurface_resolver.h"
 #include "engine/tile_identity.h"
 #include "sheet/utf8.h"
@@ -10,6 +11,10 @@
 namespace voxsheet::engine {
 
 namespace {
+
+void addNote(std::string& notes, const std::string& note) {
+    notes += (notes.empty() || note.empty() ? "" : ". ") + note;
+}
 
 /// What a cell shows for a style that cannot be drawn.
 const char* codeOf(const InvalidInput& error) {
@@ -76,6 +81,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
         look.note = emptySurfacesNote(look.isosurface.surfaces,
                                       *cache_.summary(*look.meta, look.shown.field, look.shown.step));
     }
+    addNote(look.note, missingCrystalNote(style.crystal, *look.meta));
     return look;
 }
 

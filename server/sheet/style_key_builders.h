@@ -33,6 +33,7 @@ struct RowsShape {
 void addIsosurfaceKeys(std::vector<KeySpec>& keys);
 void addPlaneKeys(std::vector<KeySpec>& keys);
 void addPeriodicKeys(std::vector<KeySpec>& keys);
+void addCrystalKeys(std::vector<KeySpec>& keys);
 void addClipKeys(std::vector<KeySpec>& keys);
 void addLayerKeys(std::vector<KeySpec>& keys);
 void addLightKeys(std::vector<KeySpec>& keys);

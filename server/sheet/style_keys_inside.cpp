@@ -107,6 +107,26 @@ void addPeriodicKeys(std::vector<KeySpec>& keys) {
     keys.push_back(replicate);
 }
 
+void addCrystalKeys(std::vector<KeySpec>& keys) {
+    const std::string group = "Crystal";
+    keys.push_back(
+        choice("crystal.atoms", {"off", "on"}, "off", group,
+               "Shows the atoms of the file as spheres in the customary colours of their elements, at "
+               "their depth in the volume, with images in opposite faces of a periodic box. "
+               "A clip takes an atom as a whole, by its centre; a plane shows those it cuts."));
+    keys.push_back(choice("crystal.bonds", {"none", "inside", "across"}, "none", group,
+                          "Joins atoms that are nearer than their covalent radii and 0.45 Å: those in the "
+                          "box (inside), or also "
+                          "with the images beyond its periodic faces (across). Metals are not joined with "
+                          "each other where there "
+                          "are other elements."));
+    keys.push_back(choice("crystal.cell", {"off", "on"}, "off", group,
+                          "Shows the edges of the unit cells, in a plane their outlines. They stay with the "
+                          "box when periodic.shift moves the data."));
+    keys.push_back(number("crystal.radius", "of the covalent radius", 0.05, 4, 0.5, group,
+                          "Radius of the atoms; bonds keep in proportion."));
+}
+
 void addClipKeys(std::vector<KeySpec>& keys) {
     const std::string group = "Clip";
     keys.push_back(withNone(

@@ -176,6 +176,7 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     addRange(keys);
     addLayerKeys(keys);
     addPeriodicKeys(keys);
+    addCrystalKeys(keys);
     addClipKeys(keys);
     addLightKeys(keys);
     addPicture(keys);

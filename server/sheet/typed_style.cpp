@@ -75,6 +75,7 @@ constexpr Words3 kScales{"linear", "log", "symlog"};
 constexpr Words4 kQualities{"full", "half", "quarter", "eighth"};
 constexpr Words3 kAnnotations{"none", "names", "all"};
 constexpr Words2 kSwitch{"off", "on"};
+constexpr Words3 kBondReaches{"none", "inside", "across"};
 constexpr Words2 kClipUnits{"fraction", "world"};
 constexpr Words2 kClipModes{"probe", "clip"};
 constexpr Words2 kClipRepresentations{"distance", "binary"};
@@ -160,6 +161,15 @@ LayersStyle layersOf(const Reader& read) {
     return {read.find<std::string>("layers").value_or(""), columnOf(read.rows("layers.weights"))};
 }
 
+CrystalStyle crystalOf(const Reader& read) {
+    CrystalStyle crystal;
+    crystal.cell = read.choice<int>("crystal.cell", kSwitch) == 1;
+    crystal.atoms = read.choice<int>("crystal.atoms", kSwitch) == 1;
+    crystal.bonds = read.choice<BondReach>("crystal.bonds", kBondReaches);
+    crystal.radius = read.get<double>("crystal.radius");
+    return crystal;
+}
+
 PlaneStyle planeOf(const Reader& read) {
     PlaneStyle plane;
     plane.axis = read.choice<PlaneAxis>("plane.axis", kPlaneAxes);
@@ -210,6 +220,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.background = read.get<Colour>("background");
     style.annotations = read.choice<Annotations>("annotations", kAnnotations);
     style.periodic = {read.get<glm::dvec3>("periodic.shift"), read.get<glm::dvec3>("periodic.replicate")};
+    style.crystal = crystalOf(read);
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
     style.layers = layersOf(read);

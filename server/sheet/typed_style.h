@@ -156,6 +156,17 @@ struct PeriodicStyle {
     bool operator==(const PeriodicStyle&) const = default;
 };
 
+enum class BondReach { None, Inside, Across };
+
+/// What of a crystal stands in the picture.
+struct CrystalStyle {
+    bool cell = false;
+    bool atoms = false;
+    BondReach bonds = BondReach::None;
+    double radius = 0.5; ///< of covalent radii
+    bool operator==(const CrystalStyle&) const = default;
+};
+
 enum class ShadingModel { Auto, None, Phong }; ///< Auto: Phong for isosurfaces, none otherwise
 enum class GradientSource { Auto, Texture, OnTheFly };
 enum class LightFrame { View, World };
@@ -194,6 +205,7 @@ struct TypedStyle {
     Colour background;
     Annotations annotations = Annotations::All;
     PeriodicStyle periodic;
+    CrystalStyle crystal;
     ClipStyle clip;
     IsosurfaceStyle isosurface;
     LayersStyle layers;

@@ -238,7 +238,7 @@ glm::dvec4 isosurfacePixel(const RayTruth& ray) {
     return light.pixel();
 }
 
-glm::dvec4 pixelOf(const RayTruth& ray) {
+glm::dvec4 volumePixel(const RayTruth& ray) {
     // Clipping, which the range heeds, is nothing to a plane.
     if (!(ray.range.begin < ray.range.end) && ray.tile.technique != Technique::Plane) return glm::dvec4(0.0);
     Light light;
@@ -260,6 +260,29 @@ glm::dvec4 pixelOf(const RayTruth& ray) {
         return planePixel(ray);
     }
     return light.pixel();
+}
+
+/// What a solid at a depth leaves of the volume's picture.
+glm::dvec4 pixelBefore(const RayTruth& ray, double depth) {
+    if (ray.tile.technique == Technique::Plane) return glm::dvec4(0.0);
+    if (ray.tile.technique == Technique::Surface) { // The face behind decides what its own depth is.
+        const auto face = faceHit(ray);
+        return face && face->depth <= depth ? volumePixel(ray) : glm::dvec4(0.0);
+    }
+    RayTruth before = ray;
+    before.range.end = std::min(before.range.end, depth);
+    return volumePixel(before);
+}
+
+glm::dvec4 pixelOf(const RayTruth& ray) {
+    const auto& solids = ray.sources.solids;
+    const bool flat = ray.tile.technique == Technique::Plane;
+    const auto solid =
+        flat ? cutSolidHit(ray.tile, solids, ray.ray) : firstSolidHit(ray.tile, solids, ray.ray);
+    if (!solid) return volumePixel(ray);
+    const auto before = pixelBefore(ray, solid->depth);
+    const auto rgb = ray.phong(solid->rgb, solid->normal);
+    return before + (1.0 - before.w) * glm::dvec4(rgb, 1.0);
 }
 
 /// Of every n-th pixel of every n-th row: visit(column, row, ray).

@@ -32,6 +32,8 @@ struct RayTruth {
     [[nodiscard]] glm::dvec3 objectNormal(double depth) const;
     /// Phong, as ShadingSpec says; the colour itself when shading is off or there is no normal.
     [[nodiscard]] glm::dvec3 lit(const glm::dvec3& rgb, const glm::dvec3& normalWorld) const;
+    /// The same, also when shading is off.
+    [[nodiscard]] glm::dvec3 phong(const glm::dvec3& rgb, const glm::dvec3& normalWorld) const;
     /// The cut's normal of a sample within a voxel behind it.
     [[nodiscard]] std::optional<glm::dvec3> cutNormal(double depth) const;
     /// Normal of a sample of a volume: the cut's within a voxel behind it, else the gradient's.

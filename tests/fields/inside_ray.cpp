@@ -42,9 +42,13 @@ glm::dvec3 RayTruth::objectNormal(double depth) const {
 }
 
 glm::dvec3 RayTruth::lit(const glm::dvec3& rgb, const glm::dvec3& normalWorld) const {
+    return tile.shading.enabled ? phong(rgb, normalWorld) : rgb;
+}
+
+glm::dvec3 RayTruth::phong(const glm::dvec3& rgb, const glm::dvec3& normalWorld) const {
     const auto& shading = tile.shading;
     const double magnitude = glm::length(normalWorld);
-    if (!shading.enabled || !(magnitude > 0.0)) return rgb;
+    if (!(magnitude > 0.0)) return rgb;
     const auto eye = toEye(tile, ray);
     auto normal = normalWorld / magnitude;
     if (glm::dot(normal, eye) < 0.0) normal = -normal;

@@ -23,6 +23,18 @@ ClipSource clipSourceOf(const VolumeProvider& volumes, const ClipObject& object)
     return source;
 }
 
+/// As capsulesOf() takes it.
+std::function<double(const glm::dvec3&)> objectMeasureOf(const TileSpec& tile,
+                                                         const std::optional<ClipSource>& clip) {
+    if (!clip) return {};
+    const auto textureFromWorld =
+        glm::inverse(worldFromTexture(clip->grid)) * tile.clip.object->objectFromWorld;
+    const double sign = tile.clip.object->mode == ClipMode::Clip ? 1.0 : -1.0;
+    return [textureFromWorld, sign, distance = clip->distance](const glm::dvec3& world) {
+        return sign * distance(glm::dvec3(textureFromWorld * glm::dvec4(world, 1.0)));
+    };
+}
+
 LayerSource layerSourceOf(const VolumeProvider& volumes, const VolumeLayer& layer) {
     const auto interpolant = std::make_shared<const Interpolant>(
         volumes, VolumeKey{layer.dataset, layer.field, layer.step, layer.level});
@@ -56,6 +68,7 @@ Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
                           valuesOf(std::make_shared<const Interpolant>(
                               volumes, VolumeKey{by.dataset, by.field, by.step, by.level}))};
     }
+    sources.solids = capsulesOf(tile, *meta, objectMeasureOf(tile, sources.clip));
     for (const auto& layer : tile.layers.volumes)
         sources.layers.push_back(layerSourceOf(volumes, layer));
     return sources;

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "fields/solids.h"
 #include "stages/tile_spec.h"
 #include "volume/grid.h"
 #include "volume/volume_provider.h"
@@ -51,6 +52,7 @@ struct Sources {
     std::optional<ColourSource> colour; ///< for tile.isosurface.colouredBy
     std::vector<LayerSource> layers;    ///< for tile.layers, in their order
     ValueAt nearest;                    ///< of the nearest sample: for planes
+    std::vector<Capsule> solids;        ///< atoms and bonds
 };
 
 /// Everything that `tile` names, read through the provider: trilinear interpolants of the stored samples, and

@@ -9,6 +9,7 @@
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
 #include "stages/picture_pixel.glsl"
+#include "stages/solids.glsl"
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
 #include "stages/colour_volume.glsl"
@@ -375,7 +376,7 @@ void main() {
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Path path;
     path.ray = cameraRay(vec2(pixel) + 0.5);
-    path.span = keptSpan(path.ray);
+    path.span = beforeSolids(keptSpan(path.ray), pixel);
     Light light = Light(vec3(0.0), 1.0);
     if (path.span.begin < path.span.end) {
         path.depthPerVoxel = 1.0 / length(path.ray.direction * voxelsPerTexture);

@@ -6,6 +6,7 @@
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
 #include "stages/picture_pixel.glsl"
+#include "stages/solids.glsl"
 #include "stages/clip_object.glsl"
 
 layout(binding = 2) uniform sampler3D largestInCells;
@@ -111,7 +112,7 @@ void main() {
     ivec2 pixel = picturePixel();
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Ray ray = cameraRay(vec2(pixel) + 0.5);
-    KeptSpan span = keptSpan(ray);
+    KeptSpan span = beforeSolids(keptSpan(ray), pixel);
     float largest = span.begin < span.end ? largestTexel(ray, vec2(span.begin, span.end)) : kNone;
     vec4 rgba = largest > kNone ? opacityScale * overLength(classifyTexel(texelSign * largest), 1.0) : vec4(0.0);
     imageStore(target, pixel, rgba);

@@ -43,11 +43,14 @@ void drawPlane(SharedStages& stages, const DrawRequest& request) {
             .withField("camera.projection");
     const auto& volume = volumes.volume;
     auto defines = ClassificationStage::defines(*tile.transfer, volume, stages.filterFloatsInShader);
+    defines.emplace_back("CLIP_PLANES", "0");
     defines.emplace_back("NEAREST", tile.plane.interpolation == PlaneInterpolation::Nearest ? "1" : "0");
+    defines.emplace_back("SOLIDS", volumes.solids != nullptr ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/plane/plane.glsl", defines);
 
     stages.classification.bind(program, tile.transfer, volume);
     setRayUniforms(program, frame, tile.sizePixels);
+    if (volumes.solids != nullptr) volumes.solids->bind(solidsUnit);
     const auto onPlane = planeInPicture(tile.plane, frame, placedGrid(volume.meta->grid, tile.periodic));
     const PlaneInPicture picture = onPlane.value_or(PlaneInPicture{});
     program.set("planeSeen", onPlane ? 1.0F : 0.0F);

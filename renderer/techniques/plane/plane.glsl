@@ -1,8 +1,9 @@
 // The volume's values where a plane cuts it (techniques/plane/plane.h).
 //   NEAREST  1: of the voxel that holds the point; 0: trilinear
-#include "stages/box.glsl"
 #include "stages/classification.glsl"
+#include "stages/kept_span.glsl"
 #include "stages/picture_pixel.glsl"
+#include "stages/solids.glsl"
 
 uniform float planeSeen;  // 0: edge-on
 uniform vec3 planeOrigin; // texture frame; as planeRight and planeUp, which are per unit of picture coordinates
@@ -39,5 +40,7 @@ void main() {
     ivec2 pixel = picturePixel();
     if (any(greaterThanEqual(pixel, targetSize))) return;
     vec2 q = (vec2(pixel) + 0.5) * pictureOfPixel.xy + pictureOfPixel.zw;
-    imageStore(target, pixel, colourAt(planeOrigin + q.x * planeRight + q.y * planeUp));
+    // Solids are cut by the plane, too, and go under the picture.
+    bool solid = solidDepth(pixel) < kNoSolid;
+    imageStore(target, pixel, solid ? vec4(0.0) : colourAt(planeOrigin + q.x * planeRight + q.y * planeUp));
 }

@@ -7,6 +7,7 @@
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
 #include "stages/picture_pixel.glsl"
+#include "stages/solids.glsl"
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
 #include "stages/layers.glsl"
@@ -206,7 +207,7 @@ void main() {
     if (any(greaterThanEqual(pixel, targetSize))) return;
     Path path;
     path.ray = cameraRay(vec2(pixel) + 0.5);
-    path.span = keptSpan(path.ray);
+    path.span = beforeSolids(keptSpan(path.ray), pixel);
     vec4 rgba = vec4(0.0);
     if (path.span.begin < path.span.end) {
         path.depthPerVoxel = 1.0 / length(path.ray.direction * voxelsPerTexture);

@@ -7,6 +7,7 @@
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
 #include "stages/opacity.glsl"
+#include "stages/solids.glsl"
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
 
@@ -55,7 +56,7 @@ Slab slabAt(Ray ray, KeptSpan span, int index
 
 void main() {
     Ray ray = cameraRay(gl_FragCoord.xy);
-    KeptSpan span = keptSpan(ray);
+    KeptSpan span = beforeSolids(keptSpan(ray), ivec2(gl_FragCoord.xy));
     float middle = firstDepth + 0.5 * float(SLABS_PER_POLYGON) * slabDepth;
     int slabs = mayShow(ray.origin + middle * ray.direction) ? SLABS_PER_POLYGON : 0;
     float unitsPerDepth = ray.radiiPerDepth * unitsPerRadius;

@@ -1,6 +1,7 @@
 // What a pixel of a face shows (techniques/surface/surface.h).
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
+#include "stages/solids.glsl"
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
 
@@ -74,6 +75,7 @@ void main() {
         }
     }
 #endif
+    if (solidDepth(ivec2(gl_FragCoord.xy)) < depth) return; // the solid goes under
     float texel = texelAt(ray.origin + depth * ray.direction);
     if (isnan(texel)) {
         colour = vec4(nanColour.rgb * nanColour.a, nanColour.a);

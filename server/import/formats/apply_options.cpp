@@ -39,6 +39,15 @@ void flipAxes(Grid& grid, const glm::bvec3& flip) {
     }
 }
 
+/// Atoms keep their place among the samples.
+void moveWithGrid(Crystal& crystal, const Grid& from, const Grid& to) {
+    if (from.worldFromIndex == to.worldFromIndex) return;
+    const auto moved = to.worldFromIndex * glm::inverse(from.worldFromIndex);
+    crystal.lattice = glm::dmat3(moved) * crystal.lattice;
+    for (Atom& atom : crystal.atoms)
+        atom.positionWorld = glm::dvec3(moved * glm::dvec4(atom.positionWorld, 1.0));
+}
+
 /// A float type that holds every number of `type`, up to F64's 53 bits.
 ScalarType floatFor(ScalarType type) {
     switch (type) {
@@ -95,11 +104,13 @@ std::vector<std::byte> withoutValue(std::span<const std::byte> in, ScalarType fr
 
 ArraySink applyOptions(SourceHeader& header, const ImportOptions& options, ArraySink sink) {
     auto& grid = header.meta.grid;
+    const Grid inFile = grid;
     if (options.spacing) setSpacing(grid, *options.spacing);
     if (options.origin) setOrigin(grid, *options.origin);
     if (options.periodic) grid.periodic = *options.periodic;
     flipAxes(grid, options.flip);
     validateGrid(grid);
+    if (header.meta.crystal) moveWithGrid(*header.meta.crystal, inFile, grid);
     if (!options.noDataValue) return sink;
 
     const double noData = *options.noDataValue;

@@ -1,9 +1,9 @@
 #include "import/formats/chgcar_header.h"
 
 #include "base/errors.h"
-#include "import/formats/elements.h"
 #include "import/formats/grid_text.h"
 #include "import/formats/number_text.h"
+#include "volume/elements.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 #include "import/formats/xsf_contents.h"
 
 #include "base/errors.h"
-#include "import/formats/elements.h"
 #include "import/formats/field_names.h"
 #include "import/formats/grid_text.h"
 #include "import/formats/number_text.h"
 #include "import/formats/voxel_plan.h"
+#include "volume/elements.h"
 
 #include <algorithm>
 #include <utility>

@@ -318,6 +318,21 @@ TEST_F(EngineTest, ValueRangesAreThoseOfTheStepOfAllStepsAndOfThePicture) {
     EXPECT_THROW(static_cast<void>(engine.valueRange("", {0, 1}, view, RangeOver::Data, {64, 64})), Error);
 }
 
+TEST_F(EngineTest, ACellWithoutACrystalThatIsAskedForOneSaysSoAndIsNoError) {
+    Engine engine(options());
+    engine.importDatasets({request(volume("a.nrrd", {8, 8, 8}, 10))});
+    ASSERT_TRUE(engine.waitIdle(60));
+    View view;
+    const auto prepare = [&] { return engine.prepareTile(*engine.snapshot(), "", {0, 0}, view, {}); };
+    const PreparedTile plain = prepare();
+    view.all = {{"crystal.atoms", std::string("on")}, {"crystal.cell", std::string("on")}};
+    const PreparedTile asked = prepare();
+    ASSERT_TRUE(asked.spec) << asked.message;
+    EXPECT_NE(asked.note.find("no crystal is drawn"), std::string::npos) << asked.note;
+    EXPECT_EQ(asked.identity, plain.identity) << "the picture is the same";
+    EXPECT_EQ(plain.note, "");
+}
+
 TEST_F(EngineTest, AProbeSaysWhatLiesUnderThePixel) {
     Engine engine(options());
     const fs::path ramp = data / "a.nrrd";

@@ -129,6 +129,34 @@ TEST(TileIdentity, LightsCountWhereThereIsShading) {
     expectNoneDiffers(projection, {[](TileSpec& s) { s.shading.enabled = false; }});
 }
 
+TEST(TileIdentity, CrystalsCountAndTheLightOnThem) {
+    const std::vector<Change> lights{
+        [](TileSpec&) {},
+        [](TileSpec& s) { s.shading.ambient = 0.5; },
+        [](TileSpec& s) {
+            s.shading.lightsView = {{0.0, 0.0, 1.0}};
+        },
+    };
+    TileSpec atoms = tile();
+    atoms.crystal.atoms = true;
+    expectAllDiffer(atoms, lights);
+    expectAllDiffer(atoms, {
+                               [](TileSpec&) {},
+                               [](TileSpec& s) { s.crystal = {}; },
+                               [](TileSpec& s) { s.crystal.cell = true; },
+                               [](TileSpec& s) { s.crystal.bonds = BondReach::InBox; },
+                               [](TileSpec& s) { s.crystal.bonds = BondReach::Across; },
+                               [](TileSpec& s) { s.crystal.radiusScale = 1.0; },
+                               [](TileSpec& s) { s.shading.enabled = true; },
+                           });
+    TileSpec cell = tile();
+    cell.crystal.cell = true;
+    expectNoneDiffers(cell, lights);
+    expectNoneDiffers(cell, {[](TileSpec& s) { s.crystal.radiusScale = 1.0; }});
+    atoms.technique = Technique::Plane;
+    expectNoneDiffers(atoms, lights);
+}
+
 TEST(TileIdentity, APlaneIsItsPlaceAndColoursAndNothingElse) {
     const std::vector<Change> places{
         [](TileSpec&) {},

@@ -40,6 +40,23 @@ TEST_F(FormatsChgcar, ReadsGridCellAndAtoms) {
     expectShearedSalt(meta);
 }
 
+TEST_F(FormatsChgcar, AtomsGoWithTheGridWhereOptionsMoveIt) {
+    ImportOptions options;
+    options.origin = glm::dvec3(10, 20, 30);
+    options.flip = glm::bvec3(true, false, false);
+    const auto path = write("CHGCAR", plainFile());
+    const auto before = load(path).meta();
+    const auto after = load(path, options).meta();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto index = [&](const DatasetMeta& meta) {
+            return glm::inverse(meta.grid.worldFromIndex) *
+                   glm::dvec4(meta.crystal->atoms[i].positionWorld, 1.0);
+        };
+        EXPECT_LT(glm::distance(index(before), index(after)), 1e-12);
+    }
+    EXPECT_EQ(after.crystal->lattice[0], -before.crystal->lattice[0]);
+}
+
 TEST_F(FormatsChgcar, DecidesTheQuantityByName) {
     const auto field = [&](const std::string& name, const ImportOptions& options = {}) {
         return load(write(name, plainFile()), options).meta().fields[0];

@@ -291,6 +291,21 @@ TEST(Style, PeriodsAreWholeNumbers) {
         EXPECT_THROW((void)parseAssignment(testKeys(), refused), InvalidInput) << refused;
 }
 
+TEST(Style, CrystalKeysBecomeTyped) {
+    Workbook book;
+    Sheet& sheet = book.sheets[0];
+    EXPECT_EQ(resolveStyle(testKeys(), sheet, {0, 0}).style.crystal, CrystalStyle{});
+    sheet.style = parseStyleMap(testKeys(), {{"crystal.cell", "on"},
+                                             {"crystal.atoms", "on"},
+                                             {"crystal.bonds", "across"},
+                                             {"crystal.radius", 0.75}});
+    EXPECT_EQ(resolveStyle(testKeys(), sheet, {0, 0}).style.crystal,
+              (CrystalStyle{true, true, BondReach::Across, 0.75}));
+    for (const char* refused :
+         {"crystal.radius=0", "crystal.radius=5", "crystal.bonds=on", "crystal.atoms=1"})
+        EXPECT_THROW((void)parseAssignment(testKeys(), refused), InvalidInput) << refused;
+}
+
 TEST(Style, DegenerateClipsPlanesAndLightsAreRefused) {
     const TypedStyle initial = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
     TypedStyle style = initial;
