@@ -1,6 +1,6 @@
 // The resources of the real program: what a script may rely on.
 #include "raw_client.h"
-#include "served_program.h"
+#include "shared_program.h"
 #include "stream_reader.h"
 
 #include <gtest/gtest.h>
@@ -22,25 +22,10 @@ namespace {
 
 const std::string kSheet = "/api/v1/sheets/Sheet1";
 
-class ApiResources : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        program_ = new ServedProgram(3, {"--columns", "2"});
-        ASSERT_TRUE(program_->waitForImports());
-    }
-    static void TearDownTestSuite() {
-        delete program_;
-        program_ = nullptr;
-    }
-    static json getJson(const std::string& target) {
-        const auto answer = program_->get(target);
-        EXPECT_EQ(answer.status, 200) << target << answer.body;
-        return answer.json();
-    }
-    static ServedProgram* program_;
+struct ApiResources : SharedProgram<ApiResources> {
+    static constexpr int datasets = 3;
+    static std::vector<std::string> arguments() { return {"--columns", "2"}; }
 };
-
-ServedProgram* ApiResources::program_ = nullptr;
 
 TEST_F(ApiResources, Information) {
     const auto info = getJson("/api/v1");

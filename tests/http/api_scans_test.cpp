@@ -1,6 +1,6 @@
 // What scans need of the real program: ranges of values, planes beside a volume, cameras of linked cells.
 #include "raw_client.h"
-#include "served_program.h"
+#include "shared_program.h"
 
 #include <gtest/gtest.h>
 
@@ -13,25 +13,10 @@ namespace {
 
 const std::string kSheet = "/api/v1/sheets/Sheet1";
 
-class ApiScans : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        program_ = new ServedProgram(2, {"--columns", "1"});
-        ASSERT_TRUE(program_->waitForImports());
-    }
-    static void TearDownTestSuite() {
-        delete program_;
-        program_ = nullptr;
-    }
-    static json getJson(const std::string& target) {
-        const auto answer = program_->get(target);
-        EXPECT_EQ(answer.status, 200) << target << answer.body;
-        return answer.json();
-    }
-    static ServedProgram* program_;
+struct ApiScans : SharedProgram<ApiScans> {
+    static constexpr int datasets = 2;
+    static std::vector<std::string> arguments() { return {"--columns", "1"}; }
 };
-
-ServedProgram* ApiScans::program_ = nullptr;
 
 TEST_F(ApiScans, RangesOfValuesOverDataTimeAndWhatThePictureShows) {
     const auto range = kSheet + "/cells/A1/range";

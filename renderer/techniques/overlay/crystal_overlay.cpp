@@ -154,8 +154,7 @@ void CrystalOverlay::drawUnder(SharedStages& stages, const DrawRequest& request)
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_BLEND);
     gpu::Framebuffer::unbind();
-    // llvmpipe may run raster work that is still queued after later compute work on the same texture.
-    glFlush();
+    context_.settleRaster(); // the next band is written by compute
 }
 
 } // namespace voxsheet
