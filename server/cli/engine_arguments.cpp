@@ -3,11 +3,8 @@
 #include "base/byte_size.h"
 #include "base/errors.h"
 #include "base/host_memory.h"
+#include "cli/named_sources.h"
 #include "sheet/bounded_json.h"
-#include "sheet/commands.h"
-#include "sheet/dataset_names.h"
-#include "sheet/layout.h"
-#include "sheet/layout_pattern.h"
 #include "sheet/workbook_json.h"
 
 #include <CLI/CLI.hpp>
@@ -49,34 +46,6 @@ bool endsInJson(const std::string& name) {
     return name.size() > 5 && name.substr(name.size() - 5) == ".json";
 }
 
-/// The named files as a workbook document: names, places and titles by the same rules as any other import.
-sheet::Workbook workbookOf(const EngineArguments& arguments, const sheet::KeyTable& keys) {
-    auto paths = arguments.sources;
-    sheet::sortNaturally(paths);
-    const auto names = sheet::distinguishingNames(paths);
-    sheet::AddDatasets add;
-    sheet::Workbook workbook;
-    add.sheet = workbook.sheets.front().name;
-    add.columns = arguments.columns;
-    std::vector<sheet::Address> places;
-    if (!arguments.layout.empty()) {
-        const auto placement = sheet::placeByPattern(arguments.layout, paths);
-        places = placement.places;
-        add.columnTitles = placement.columnTitles;
-        add.rowTitles = placement.rowTitles;
-        workbook.sheets.front().columns = placement.layout.columns;
-        workbook.sheets.front().rows = placement.layout.rows;
-    }
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        sheet::NamedDataset dataset;
-        dataset.name = names[i];
-        dataset.source.files = {fs::absolute(paths[i]).lexically_normal().string()};
-        if (!places.empty()) dataset.place = places[i];
-        add.datasets.push_back(std::move(dataset));
-    }
-    return sheet::apply(workbook, add, keys);
-}
-
 /// Folders that a workbook's sources lie in, read leniently: opening it says what is wrong with it.
 std::vector<fs::path> sourceFolders(const fs::path& workbook) {
     std::vector<fs::path> folders;
@@ -98,7 +67,8 @@ std::vector<fs::path> sourceFolders(const fs::path& workbook) {
 } // namespace
 
 void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
-    app.add_option("SOURCES", arguments.sources, "One workbook (.json), or data files");
+    app.add_option("SOURCES", arguments.sources,
+                   "One workbook (.json), or data files and formulas over cells, e.g. a.nrrd b.nrrd =B1-A1");
     app.add_option(
         "--root", arguments.roots,
         "Folder that datasets may be opened from; repeatable (default: the working directory and the "
@@ -144,8 +114,9 @@ engine::EngineOptions engineOptions(const EngineArguments& arguments) {
         addRoot(fs::absolute(root));
     if (arguments.roots.empty())
         for (const auto& source : arguments.sources)
-            addRoot(fs::absolute(source).lexically_normal().parent_path());
-    if (arguments.sources.size() == 1 && isWorkbook(arguments.sources.front())) {
+            if (!isFormula(source)) addRoot(fs::absolute(source).lexically_normal().parent_path());
+    if (arguments.sources.size() == 1 && !isFormula(arguments.sources.front()) &&
+        isWorkbook(arguments.sources.front())) {
         options.workbookFile = fs::absolute(arguments.sources.front());
         // Whoever names a workbook on the command line means its data too, wherever that lies.
         if (arguments.roots.empty())
@@ -166,19 +137,20 @@ void openSources(engine::Engine& engine, const EngineArguments& arguments) {
     if (arguments.sources.empty()) return;
     const bool several = arguments.sources.size() > 1;
     const auto& first = arguments.sources.front();
-    const auto existing = [](const std::string& path) { return fs::exists(path); };
+    const auto existing = [](const std::string& path) { return !isFormula(path) && fs::exists(path); };
     const auto books = std::count_if(arguments.sources.begin(), arguments.sources.end(),
                                      [&](const auto& path) { return existing(path) && isWorkbook(path); });
     if (books > 0 && several)
-        throw InvalidInput(first, "a workbook can not be opened together with other files",
-                           "name one workbook, or only data files");
+        throw InvalidInput(first, "a workbook can not be opened together with other files or formulas",
+                           "name one workbook, or only data files and formulas");
     if (books == 1) {
         const auto document = sheet::parseBoundedJson(readText(first), first);
         engine.setWorkbookJson(document, fs::absolute(first).parent_path(), engine::DocumentOrigin::File);
         return;
     }
-    engine.setWorkbookJson(sheet::workbookToJson(workbookOf(arguments, engine.keys())), fs::current_path(),
-                           engine::DocumentOrigin::File);
+    const auto workbook = workbookOfWords(arguments.sources, {arguments.columns, arguments.layout},
+                                          fs::current_path(), engine.keys());
+    engine.setWorkbookJson(sheet::workbookToJson(workbook), fs::current_path(), engine::DocumentOrigin::File);
 }
 
 } // namespace voxsheet::cli

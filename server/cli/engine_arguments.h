@@ -15,7 +15,8 @@ class App;
 namespace voxsheet::cli {
 
 struct EngineArguments {
-    std::vector<std::string> sources; ///< one workbook (.json with a "voxsheet" member), or data files
+    std::vector<std::string>
+        sources; ///< one workbook (.json with a "voxsheet" member), or files and formulas
     std::vector<std::string> roots;
     std::string store;
     std::string storeLimit;
@@ -38,9 +39,9 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments);
 /// IoError.
 [[nodiscard]] bool isWorkbook(const std::filesystem::path& file);
 
-/// Starts what the arguments name: the workbook, or the files, naturally sorted and placed by --layout or
-/// --columns. A file that is not there or is damaged becomes an error in its cell. Throws InvalidInput
-/// (mixed, or a layout that does not fit), NotFound (the workbook).
+/// Starts what the arguments name: the workbook, or the files and formulas (named_sources.h) placed by
+/// --layout or --columns. A file that is not there or is damaged becomes an error in its cell. Throws
+/// InvalidInput (mixed, or a layout that does not fit), NotFound (the workbook).
 void openSources(engine::Engine& engine, const EngineArguments& arguments);
 
 } // namespace voxsheet::cli

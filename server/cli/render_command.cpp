@@ -125,8 +125,9 @@ Action addRender(CLI::App& app) {
         ->take_all()
         ->allow_extra_args(false);
     addLookArguments(app, arguments->look);
-    app.footer("Example: voxsheet render a.nrrd b.nrrd -o sheet.png --set camera.azimuth=40 --set "
-               "B1:transfer.map=plasma");
+    app.footer(
+        "Example: voxsheet render a.nrrd b.nrrd =B1-A1 -o sheet.png --columns 3 --set camera.azimuth=40 "
+        "--set B1:transfer.map=plasma");
     return [arguments] { return runRender(*arguments); };
 }
 

@@ -80,4 +80,23 @@ TEST(ApiScansProgram, PlanesCanBeAskedForOnTheCommandLine) {
     EXPECT_EQ(cell.at("resolved").at("plane.crosshair").at("value"), json::array({0.2, 0.3, 0.4}));
 }
 
+TEST(ApiScansProgram, FormulasCanStandAmongTheFilesOfTheCommandLine) {
+    const ServedProgram program(2, {"=A2-C1", "=A1-Q9", "--columns", "3"}); // The files come last.
+    ASSERT_TRUE(program.waitForImports());
+    EXPECT_EQ(program.get("/api/v1/datasets").json().at("datasets").size(), 2U);
+    EXPECT_EQ(program.get(kSheet + "/cells/A1/image.png?width=64&height=64").status, 200) << "computed now";
+    const auto probe = program.get(kSheet + "/probe?x=3&y=4&z=5").json().at("values");
+    const auto valueOf = [&](const std::string& cell) -> json {
+        for (const auto& each : probe)
+            if (each.at("cell") == cell) return each.value("value", json());
+        return {};
+    };
+    for (const char* cell : {"A1", "C1", "A2"})
+        ASSERT_TRUE(valueOf(cell).is_number()) << probe;
+    EXPECT_EQ(valueOf("A1").get<double>(), valueOf("A2").get<double>() - valueOf("C1").get<double>());
+    const auto wrong = program.get(kSheet + "/cells/B1").json();
+    EXPECT_EQ(wrong.at("code"), "#REF!");
+    EXPECT_NE(wrong.at("message").get<std::string>().find("Q9"), std::string::npos) << wrong;
+}
+
 } // namespace
