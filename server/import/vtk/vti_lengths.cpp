@@ -72,14 +72,14 @@ private:
         const auto blocks = integerAt(first, 0);
         const auto blockBytes = integerAt(first, 1);
         const auto lastBytes = integerAt(first, 2);
-        // Each block has at least one byte, so that more blocks than bytes are a lie (and the products below
-        // are safe).
-        const bool possible =
-            blocks >= 1 && blocks <= expected_ && blockBytes <= expected_ && lastBytes <= blockBytes;
-        const auto total = possible ? blocks * blockBytes - (lastBytes == 0 ? 0 : blockBytes - lastBytes) : 0;
+        // Each block has at least one byte, so that more blocks than bytes are a lie. The size of a block is
+        // that of a full one: larger than all data when they fit into one block.
+        const bool possible = blocks >= 1 && blocks <= expected_ && lastBytes <= blockBytes;
+        const auto full = lastBytes == 0 ? blocks : blocks - 1;
+        const bool fits = possible && (full == 0 || blockBytes <= expected_ / full);
+        const auto total = fits ? full * blockBytes + lastBytes : 0;
         if (total != expected_)
-            damaged("says that its blocks have " +
-                    (possible ? std::to_string(total) : "impossible sizes, not") +
+            damaged("says that its blocks have " + (fits ? std::to_string(total) : "impossible sizes, not") +
                     " bytes where its type and the image's size give " + std::to_string(expected_));
         const auto lengthBytes = (3 + blocks) * n;
         require(encoded(lengthBytes)); // before they are read
