@@ -91,6 +91,7 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
                    "Columns of the sheet (default: chosen by the number of files)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--layout", arguments.layout, "Place files by their names, e.g. 'sub-{row}_{col}.nii.gz'");
+    addImportArguments(app, arguments.import);
 }
 
 engine::EngineOptions engineOptions(const EngineArguments& arguments) {
@@ -144,12 +145,17 @@ void openSources(engine::Engine& engine, const EngineArguments& arguments) {
         throw InvalidInput(first, "a workbook can not be opened together with other files or formulas",
                            "name one workbook, or only data files and formulas");
     if (books == 1) {
+        if (!arguments.import.settings.empty())
+            throw InvalidInput(first, "a workbook says itself how its files are to be read",
+                               "change the options of its datasets, or name the data files")
+                .withField("--import");
         const auto document = sheet::parseBoundedJson(readText(first), first);
         engine.setWorkbookJson(document, fs::absolute(first).parent_path(), engine::DocumentOrigin::File);
         return;
     }
-    const auto workbook = workbookOfWords(arguments.sources, {arguments.columns, arguments.layout},
-                                          fs::current_path(), engine.keys());
+    auto workbook = workbookOfWords(arguments.sources, {arguments.columns, arguments.layout},
+                                    fs::current_path(), engine.keys());
+    setImportOptions(workbook, arguments.import);
     engine.setWorkbookJson(sheet::workbookToJson(workbook), fs::current_path(), engine::DocumentOrigin::File);
 }
 

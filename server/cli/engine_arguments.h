@@ -1,6 +1,7 @@
 // Options that serve and render share: what to open, and what the engine may use.
 #pragma once
 
+#include "cli/import_arguments.h"
 #include "engine/engine.h"
 
 #include <filesystem>
@@ -27,6 +28,7 @@ struct EngineArguments {
     int device = -1;
     std::optional<int> columns;
     std::string layout;
+    ImportArguments import;
 };
 
 void addEngineArguments(CLI::App& app, EngineArguments& arguments);

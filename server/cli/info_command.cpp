@@ -1,3 +1,4 @@
+#include "base/errors.h"
 #include "cli/commands.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
@@ -50,8 +51,9 @@ void printText(const std::string& file, const nlohmann::json& info) {
 
 /// Imports one file (into the store, where a later `serve` finds it) and describes it; null and a line on
 /// stderr when it fails.
-nlohmann::json describeFile(engine::Engine& engine, const std::string& file) {
+nlohmann::json describeFile(engine::Engine& engine, const std::string& file, const ImportArguments& import) {
     engine::ImportRequest request;
+    request.options = importOptionsFor(import, file);
     request.files = {std::filesystem::absolute(file)};
     request.place = false;
     const auto name = engine.importDatasets({request}).at(0);
@@ -71,9 +73,11 @@ int runInfo(const InfoArguments& arguments) {
     nlohmann::json all = nlohmann::json::array();
     for (const auto& file : arguments.engine.sources) {
         try {
-            auto info = describeFile(engine, file);
+            auto info = describeFile(engine, file, arguments.engine.import);
             if (!arguments.json) printText(file, info);
             all.push_back(std::move(info));
+        } catch (const Error& error) {
+            code = reportFailure(error);
         } catch (const std::exception& error) {
             code = reportFailure(std::string(error.what()));
         }

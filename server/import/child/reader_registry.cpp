@@ -45,10 +45,14 @@ constexpr std::array<Signature, 10> kKnownButNotRead{{
 } // namespace
 
 ReaderRegistry::ReaderRegistry() : readers_(makeOwnReaders()) {
-    readers_.push_back(makeLegacyVtkReader());
-    readers_.push_back(makeTiffReader());
+    // Before the last one, for raw voxels, which takes any file when options describe it.
+    const auto insert = [&](std::unique_ptr<SourceReader> reader) {
+        readers_.insert(readers_.end() - 1, std::move(reader));
+    };
+    insert(makeLegacyVtkReader());
+    insert(makeTiffReader());
 #ifdef VOXSHEET_HAS_VTK
-    readers_.push_back(makeVtiReader());
+    insert(makeVtiReader());
 #endif
     // Last: a binary STL is known by its length only.
     for (auto& reader : makeMeshReaders())
