@@ -54,17 +54,27 @@ void checkDisk(const std::string& file, const store::VolumeStore& store, const D
                         "free space, or choose another folder with --store");
 }
 
-/// Errors that do not say which file they are about get its name.
+/// What can be done about a file that only its writer knows.
+const char* customaryAdvice(ErrorKind kind) {
+    if (kind == ErrorKind::InvalidInput) return "correct its header, or write or copy the file again";
+    if (kind == ErrorKind::Unsupported) return "convert it to another type or format";
+    if (kind == ErrorKind::LimitExceeded) return "check its header, or make the volume smaller";
+    return "";
+}
+
+/// Errors that do not say which file they are about get its name, and all say what can be done.
 template <typename Work>
 auto naming(const std::string& file, const Work& work) {
     try {
         return work();
     } catch (const Error& error) {
-        if (error.subject().find('/') != std::string::npos || !error.field().empty()) throw;
-        auto named = errorMessage(error);
-        named.why = named.what + ": " + named.why;
-        named.what = file;
-        throwError(named);
+        auto whole = errorMessage(error);
+        if (whole.toDo.empty()) whole.toDo = customaryAdvice(error.kind());
+        if (error.subject().find('/') == std::string::npos && error.field().empty()) {
+            whole.why = whole.what + ": " + whole.why;
+            whole.what = file;
+        }
+        throwError(whole);
     }
 }
 

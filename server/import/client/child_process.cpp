@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -171,21 +172,28 @@ void ChildProcess::kill() const {
     if (!status_) ::kill(id_, SIGKILL);
 }
 
+/// True when the child has ended.
+bool ChildProcess::takeStatus(int flags) {
+    int status = 0;
+    struct rusage usage {};
+    const auto ended = ::wait4(id_, &status, flags, &usage);
+    if (ended != id_ && !(ended < 0 && errno == ECHILD)) return false;
+    status_ = status;
+    peakMemoryBytes_ = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    return true;
+}
+
 int ChildProcess::wait(std::chrono::milliseconds grace) {
     const auto deadline = std::chrono::steady_clock::now() + grace;
-    while (!status_) {
-        int status = 0;
-        const auto ended = ::waitpid(id_, &status, WNOHANG);
-        if (ended == id_ || (ended < 0 && errno == ECHILD)) {
-            status_ = status;
-        } else if (std::chrono::steady_clock::now() >= deadline) {
+    while (!status_ && !takeStatus(WNOHANG)) {
+        if (std::chrono::steady_clock::now() >= deadline) {
             kill();
-            if (::waitpid(id_, &status, 0) == id_ || errno == ECHILD) status_ = status;
-        } else {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            (void)takeStatus(0);
+            break;
         }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    return *status_;
+    return status_.value_or(0);
 }
 
 } // namespace voxsheet::import

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,8 +37,12 @@ public:
     void kill() const;
     /// Waits for the end, killing the child after `grace`. Status as of waitpid.
     int wait(std::chrono::milliseconds grace);
+    /// Largest resident memory of the child, known after wait(). Linux counts what this process held when it
+    /// started the child, too: no less than that.
+    [[nodiscard]] std::uint64_t peakMemoryBytes() const { return peakMemoryBytes_; }
 
 private:
+    bool takeStatus(int flags);
     void readOutput();
     void readErrors();
 
@@ -48,6 +53,7 @@ private:
     std::size_t scanned_ = 0; ///< bytes of pending_ that are known to hold no line end
     std::string errorTail_;
     std::optional<int> status_;
+    std::uint64_t peakMemoryBytes_ = 0;
 };
 
 } // namespace voxsheet::import

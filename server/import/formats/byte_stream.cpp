@@ -214,4 +214,10 @@ std::uint64_t largestDecompressedBytes(std::uint64_t compressedBytes, Compressio
     return compressedBytes;
 }
 
+bool promisesMuch(std::uint64_t promisedBytes, std::uint64_t compressedBytes) {
+    constexpr std::uint64_t ratio = 32;
+    constexpr std::uint64_t harmlessBytes = 32ULL << 20;
+    return promisedBytes > harmlessBytes && promisedBytes / ratio > compressedBytes;
+}
+
 } // namespace voxsheet::import

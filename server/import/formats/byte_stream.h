@@ -41,4 +41,8 @@ public:
 /// run-length codes, 255 bytes in 5, in about 40 bytes.
 [[nodiscard]] std::uint64_t largestDecompressedBytes(std::uint64_t compressedBytes, Compression compression);
 
+/// A small file promises so much that it is decompressed once for nothing before memory is taken for it. Real
+/// volumes that compress that well (masks, mostly) decompress fast.
+[[nodiscard]] bool promisesMuch(std::uint64_t promisedBytes, std::uint64_t compressedBytes);
+
 } // namespace voxsheet::import

@@ -47,6 +47,14 @@ void readFields(GridValues& values, const glm::ivec3& dims, std::vector<std::vec
     }
 }
 
+/// Its values lie scattered over the arrays, so that one line of text would touch all of their memory.
+void provePromises(const InputFile& file, std::uint64_t position, std::uint64_t values) {
+    if (!promisesMuch(values * sizeof(double), file.bytes())) return;
+    auto text = openText(file);
+    text.skipBytes(position);
+    skipGrid(file, text, values, "its grid");
+}
+
 } // namespace
 
 bool CubeReader::recognises(const FileHead& head, const ImportOptions&) const {
@@ -91,6 +99,7 @@ std::vector<std::string> CubeReader::readData(const SourceHeader& header, const 
     const InputFile file(plan.file);
     auto text = openText(file);
     text.skipBytes(plan.dataPosition);
+    provePromises(file, plan.dataPosition, header.totalBytes() / sizeof(double));
     std::vector<std::vector<std::byte>> arrays;
     std::uint64_t bytes = 0;
     for (std::size_t field = 0; field < header.meta.fields.size(); ++field) {

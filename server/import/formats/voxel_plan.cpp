@@ -87,6 +87,26 @@ void checkSegment(const VoxelPlan& plan, const DataSegment& segment) {
         refuse(bytesText(held));
 }
 
+/// Throws what reading throws, and keeps nothing.
+void provePromises(const VoxelPlan& plan) {
+    if (plan.compression == Compression::None) return;
+    std::uint64_t promised = 0;
+    std::uint64_t held = 0;
+    for (const auto& segment : plan.segments) {
+        promised += segment.voxelBytes;
+        held += InputFile(segment.file).bytes();
+    }
+    if (!promisesMuch(promised, held)) return;
+    SegmentStream stream(plan);
+    std::vector<std::byte> dropped(kSlabBytes);
+    while (promised > 0) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(promised, dropped.size()));
+        stream.read(std::span(dropped).first(count));
+        promised -= count;
+    }
+    stream.finish();
+}
+
 } // namespace
 
 std::uint64_t checkedBytes(const std::string& what, const std::vector<std::int64_t>& extents,
@@ -122,6 +142,7 @@ void readVoxels(const VoxelPlan& plan, const glm::ivec3& dims, const ArraySink& 
     const auto volumes = plan.outerFields * plan.steps;
     const bool swap = plan.bigEndian && valueBytes > 1 && plan.encoding != VoxelEncoding::Ascii;
     const auto slabVoxels = std::max<std::size_t>(1, kSlabBytes / (valueBytes * components));
+    provePromises(plan);
     std::vector<std::byte> slab(components > 1 ? std::min(slabVoxels, voxels) * valueBytes * components : 0);
 
     SegmentStream stream(plan);

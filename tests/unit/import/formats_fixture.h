@@ -3,11 +3,9 @@
 
 #include "base/errors.h"
 #include "import/formats/own_readers.h"
+#include "packed_bytes.h"
 
 #include <gtest/gtest.h>
-
-#include <bzlib.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -107,58 +105,6 @@ inline void expectShearedSalt(const DatasetMeta& meta) {
     EXPECT_EQ(meta.crystal->atoms[0].atomicNumber, 11);
     EXPECT_EQ(meta.crystal->atoms[1].atomicNumber, 17);
     EXPECT_EQ(meta.crystal->atoms[1].positionWorld, glm::dvec3(1.5, 1.5, 2));
-}
-
-template <typename T>
-std::string bytesOf(const std::vector<T>& values, bool bigEndian = false) {
-    std::string bytes(values.size() * sizeof(T), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    if (bigEndian)
-        for (std::size_t at = 0; at < bytes.size(); at += sizeof(T))
-            std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                         bytes.begin() + static_cast<std::ptrdiff_t>(at + sizeof(T)));
-    return bytes;
-}
-
-/// Values that differ in every byte, from the whole range of the type.
-template <typename T>
-std::vector<T> ramp(std::size_t count) {
-    std::vector<T> values(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        if constexpr (std::is_floating_point_v<T>)
-            values[i] = static_cast<T>(static_cast<double>(i) * 1.25 - 7.0);
-        else
-            values[i] = static_cast<T>(i * 0x9E3779B97F4A7C15ULL >> (64 - 8 * sizeof(T)));
-    }
-    return values;
-}
-
-inline std::string deflated(std::string_view bytes, int windowBits) {
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, windowBits, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + 64, '\0');
-    std::string in(bytes);
-    stream.next_in = reinterpret_cast<Bytef*>(in.data());
-    stream.avail_in = static_cast<uInt>(in.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
-inline std::string gzipped(std::string_view bytes) { return deflated(bytes, 15 + 16); }
-inline std::string zlibbed(std::string_view bytes) { return deflated(bytes, 15); }
-
-inline std::string bzipped(std::string_view bytes) {
-    std::string in(bytes);
-    auto size = static_cast<unsigned>(in.size() + in.size() / 50 + 1024);
-    std::string out(size, '\0');
-    EXPECT_EQ(
-        BZ2_bzBuffToBuffCompress(out.data(), &size, in.data(), static_cast<unsigned>(in.size()), 9, 0, 0),
-        BZ_OK);
-    out.resize(size);
-    return out;
 }
 
 } // namespace voxsheet::import::testing
