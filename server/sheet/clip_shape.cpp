@@ -77,6 +77,9 @@ const char* comparisonSign(Comparison comparison) {
 VolumeName parseVolumeName(std::string_view text, const std::string& key) {
     const auto name = trimmed(text);
     if (name.empty()) refuse(key, text, "no volume is named", "name a cell such as B1, or a dataset");
+    if (name == "#REF!")
+        refuse(key, text, "the cell that it named is gone",
+               "name another cell or dataset, or set it to none");
     const auto plain = unquoted(name);
     if (plain.size() == name.size() && (looksLikeAddress(name) || name.find('!') != std::string_view::npos)) {
         try {

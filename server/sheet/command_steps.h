@@ -37,7 +37,8 @@ void perform(Workbook& workbook, const ReplaceWorkbook& command);
 void requireLayer(const Sheet& sheet, const Layer& layer);
 /// Removes the cell if nothing is left in it.
 void dropIfBlank(Sheet& sheet, const Address& address);
-/// Applies to references to cells of `sheet`, wherever in the workbook the formulas are. nullopt: #REF!.
+/// Applies to references to cells of `sheet`, wherever in the workbook they stand, in formulas or in styles.
+/// nullopt: #REF!.
 using CellsMove = std::function<std::optional<AddressRange>(const AddressRange&)>;
 void moveReferences(Workbook& workbook, const std::string& sheet, const CellsMove& move);
 

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "sheet/command_steps.h"
 #include "sheet/formula/references.h"
+#include "sheet/style_references.h"
 #include "sheet/utf8.h"
 
 #include <type_traits>
@@ -107,6 +108,7 @@ void moveReferences(Workbook& workbook, const std::string& sheet, const CellsMov
         };
         for (auto& [address, cell] : each.cells)
             if (cell.isFormula()) cell.source = rewriteReferences(cell.source, moved);
+        forEachStyle(each, [&](StyleMap& style) { moveStyleReferences(style, moved); });
     }
 }
 

@@ -1,6 +1,7 @@
 #include "base/errors.h"
 #include "sheet/command_steps.h"
 #include "sheet/layout.h"
+#include "sheet/style_references.h"
 #include "sheet/utf8.h"
 
 #include <algorithm>
@@ -113,9 +114,12 @@ void perform(Workbook& workbook, const RenameDataset& command) {
     requireFreeName(workbook, command.newName);
     workbook.datasets.erase(command.name);
     workbook.datasets.emplace(command.newName, source);
-    for (Sheet& sheet : workbook.sheets)
+    for (Sheet& sheet : workbook.sheets) {
         for (auto& [address, cell] : sheet.cells)
             if (cell.source == command.name) cell.source = command.newName;
+        forEachStyle(sheet,
+                     [&](StyleMap& style) { renameDatasetInStyle(style, command.name, command.newName); });
+    }
 }
 
 void perform(Workbook& workbook, const ReplacePathPrefix& command) {

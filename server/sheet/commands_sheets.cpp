@@ -1,6 +1,7 @@
 #include "base/errors.h"
 #include "sheet/command_steps.h"
 #include "sheet/formula/references.h"
+#include "sheet/style_references.h"
 #include "sheet/utf8.h"
 
 #include <algorithm>
@@ -21,9 +22,11 @@ void requireFreeSheetName(const Workbook& workbook, const std::string& name) {
 }
 
 void rewriteAll(Workbook& workbook, const std::string& from, const std::string& to) {
-    for (Sheet& sheet : workbook.sheets)
+    for (Sheet& sheet : workbook.sheets) {
         for (auto& [address, cell] : sheet.cells)
             if (cell.isFormula()) cell.source = rewriteSheet(cell.source, from, to);
+        forEachStyle(sheet, [&](StyleMap& style) { renameSheetInStyle(style, from, to); });
+    }
 }
 
 } // namespace
