@@ -237,6 +237,48 @@ CameraSpec resolveCamera(const sheet::CameraStyle& camera, const CameraFrame& fr
     return spec;
 }
 
+namespace {
+
+bool isLinked(const sheet::ResolvedStyle& resolved, const char* key) {
+    const auto found = resolved.values.find(key);
+    if (found == resolved.values.end()) return false;
+    switch (found->second.origin.kind) {
+    case sheet::LayerKind::Sheet:
+    case sheet::LayerKind::PageView:
+    case sheet::LayerKind::Column:
+    case sheet::LayerKind::Row:
+        return true;
+    default:
+        return false;
+    }
+}
+
+/// Sets `value` to `neutral` where the grid is not periodic; true if that changed anything.
+bool neutralWhereNotPeriodic(glm::dvec3& value, double neutral, const Grid& grid) {
+    bool changed = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (grid.periodic[axis] || value[axis] == neutral) continue;
+        value[axis] = neutral;
+        changed = true;
+    }
+    return changed;
+}
+
+} // namespace
+
+std::string dropLinkedPeriods(sheet::ResolvedStyle& resolved, const Grid& grid) {
+    auto& periodic = resolved.style.periodic;
+    std::string keys;
+    if (isLinked(resolved, "periodic.shift") && neutralWhereNotPeriodic(periodic.shift, 0.0, grid))
+        keys = "periodic.shift";
+    if (isLinked(resolved, "periodic.replicate") && neutralWhereNotPeriodic(periodic.replicate, 1.0, grid))
+        keys += (keys.empty() ? "" : " and ") + std::string("periodic.replicate");
+    if (keys.empty()) return {};
+    const bool some = grid.periodic.x || grid.periodic.y || grid.periodic.z;
+    return keys + (some ? " of the linked cells applies to the periodic axes of these data only"
+                        : " of the linked cells does not apply here: these data are not periodic");
+}
+
 PeriodicWindow periodicWindow(const sheet::PeriodicStyle& style) {
     return {style.shift, glm::ivec3(glm::round(style.replicate))};
 }

@@ -55,6 +55,11 @@ struct FieldAndStep {
 /// is not periodic. The shift comes wrapped to [0, 1).
 [[nodiscard]] PeriodicWindow resolvePeriodicWindow(const sheet::PeriodicStyle& style, const Grid& grid);
 
+/// Takes back, on axes that are not periodic, what columns, rows, the sheet or a page's view ask for all
+/// linked cells. Returns a sentence that says so, empty when nothing was taken back. What the cell alone is
+/// asked for stays, and is an error then.
+[[nodiscard]] std::string dropLinkedPeriods(sheet::ResolvedStyle& resolved, const Grid& grid);
+
 /// `grid`: whose box is drawn (drawnGrid). camera.fov is the vertical angle of pictures wider than high, the
 /// horizontal one of others: what fits, fits in both.
 [[nodiscard]] CameraSpec resolveCamera(const sheet::CameraStyle& camera, const CameraFrame& frame,

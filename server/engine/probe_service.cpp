@@ -26,8 +26,9 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
             continue;
         }
         try {
-            const auto style =
-                sheet::resolveStyle(keys_, sheet, address, {view.all, view.cells, view.request}).style;
+            auto resolved = sheet::resolveStyle(keys_, sheet, address, {view.all, view.cells, view.request});
+            (void)dropLinkedPeriods(resolved, content.meta->grid);
+            const sheet::TypedStyle& style = resolved.style;
             const FieldAndStep shown = chooseField(style.field, style.timeStep, *content.meta);
             const PeriodicWindow window = resolvePeriodicWindow(style.periodic, content.meta->grid);
             probe.unit = content.meta->fields[static_cast<std::size_t>(shown.field)].unit;

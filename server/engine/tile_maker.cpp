@@ -62,6 +62,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     sheet::requireConsistent(look.resolved.style);
     look.meta = contentAt(*contents, {sheetIndex, cell}).meta;
     if (!look.meta) throw InternalError("cell " + sheet::addressName(cell), "it has nothing to show");
+    const std::string periodsNote = dropLinkedPeriods(look.resolved, look.meta->grid);
     const sheet::TypedStyle& style = look.resolved.style;
     look.shown = chooseField(style.field, style.timeStep, *look.meta);
     look.frame = frame(workbook, sheetIndex, cell, view, contents);
@@ -82,6 +83,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
                                       *cache_.summary(*look.meta, look.shown.field, look.shown.step));
     }
     addNote(look.note, missingCrystalNote(style.crystal, *look.meta));
+    addNote(look.note, periodsNote);
     return look;
 }
 

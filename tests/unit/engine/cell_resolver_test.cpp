@@ -226,6 +226,39 @@ TEST_F(CellResolver, PeriodsMoveCameraAndClipsWithTheBoxAndTheShiftMovesNeither)
     EXPECT_EQ(refused("periodic.replicate", {1, 1, 2}), "periodic.replicate");
 }
 
+TEST_F(CellResolver, LinkedPeriodsApplyOnlyWhereTheDataArePeriodic) {
+    const auto asked = [&](sheet::LayerKind kind) {
+        auto resolved = style({{"periodic.shift", {0.5, 0.5, 0.5}}, {"periodic.replicate", {2, 1, 3}}});
+        for (const char* key : {"periodic.shift", "periodic.replicate"})
+            resolved.values.at(key).origin = {kind, 0, 0};
+        return resolved;
+    };
+    Grid slab = meta.grid;
+    slab.periodic = glm::bvec3(true, true, false);
+    for (const auto kind : {sheet::LayerKind::Sheet, sheet::LayerKind::Column, sheet::LayerKind::Row,
+                            sheet::LayerKind::PageView}) {
+        auto linked = asked(kind);
+        EXPECT_NE(dropLinkedPeriods(linked, slab).find("periodic axes of these data only"),
+                  std::string::npos);
+        EXPECT_EQ(linked.style.periodic.shift, glm::dvec3(0.5, 0.5, 0));
+        EXPECT_EQ(linked.style.periodic.replicate, glm::dvec3(2, 1, 1));
+        EXPECT_NO_THROW((void)resolvePeriodicWindow(linked.style.periodic, slab));
+        auto none = asked(kind);
+        EXPECT_NE(dropLinkedPeriods(none, meta.grid).find("not periodic"), std::string::npos);
+        EXPECT_EQ(none.style.periodic.shift, glm::dvec3(0.0));
+        auto full = asked(kind);
+        Grid crystal = meta.grid;
+        crystal.periodic = glm::bvec3(true);
+        EXPECT_EQ(dropLinkedPeriods(full, crystal), "");
+        EXPECT_EQ(full.style.periodic.replicate, glm::dvec3(2, 1, 3));
+    }
+    for (const auto kind : {sheet::LayerKind::Cell, sheet::LayerKind::PageCell, sheet::LayerKind::Request}) {
+        auto own = asked(kind);
+        EXPECT_EQ(dropLinkedPeriods(own, slab), "");
+        EXPECT_THROW((void)resolvePeriodicWindow(own.style.periodic, slab), InvalidInput);
+    }
+}
+
 TEST_F(CellResolver, SharedCellsSpanAllOfThem) {
     std::vector<float> high{1000, 1001, 1002, 1003, 1004, 1005, 1006, 1007};
     const ValueSummary merged = mergeSummaries({density, summariseValues(high, 1000, 1007)});
