@@ -1,5 +1,7 @@
 #include "volume/parallel_for.h"
 
+#include "base/thread_count.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -51,11 +53,11 @@ void parallelFor(long count, long grain, const std::function<void(long, long)>& 
     if (count <= 0) return;
     grain = std::max(grain, 1L);
     const long chunks = (count + grain - 1) / grain;
-    const long cores = std::max(1L, static_cast<long>(std::thread::hardware_concurrency()));
+    const long threads = threadCount().threads;
     SharedLoop loop(count, grain, body);
     std::vector<std::jthread> helpers;
     try {
-        for (long i = 1; i < std::min(cores, chunks); ++i)
+        for (long i = 1; i < std::min(threads, chunks); ++i)
             helpers.emplace_back([&loop] { loop.work(); });
     } catch (const std::system_error&) {
         // The process may start no more threads: this one does the rest alone.

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/host_memory.h"
 #include "cli/named_sources.h"
+#include "cli/thread_arguments.h"
 #include "sheet/bounded_json.h"
 #include "sheet/workbook_json.h"
 
@@ -83,8 +84,7 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
     app.add_option("--memory-budget", arguments.memoryBudget,
                    "Bytes of samples kept in host memory, and what one import or formula may take (default: "
                    "a quarter of RAM)");
-    app.add_option("--threads", arguments.threads, "Worker threads (default: the cores this process may use)")
-        ->check(CLI::Range(0, 1024));
+    addThreadArgument(app);
     app.add_option("--device", arguments.device, "EGL device to draw on (default: chosen; see GET /api/v1)")
         ->check(CLI::Range(-1, 1024));
     app.add_option("--columns", arguments.columns,
@@ -103,7 +103,6 @@ engine::EngineOptions engineOptions(const EngineArguments& arguments) {
     // The device's memory is known once it is open: what is above it is refused then.
     options.textureBudgetBytes = parseBudget(arguments.textureBudget, "--texture-budget", std::nullopt);
     options.memoryBudgetBytes = parseBudget(arguments.memoryBudget, "--memory-budget", hostMemoryBytes());
-    options.threads = arguments.threads;
     options.device = arguments.device;
     std::set<fs::path> roots;
     const auto addRoot = [&](const fs::path& folder) {

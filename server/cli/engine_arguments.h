@@ -24,7 +24,6 @@ struct EngineArguments {
     std::string uploadDir;
     std::string textureBudget;
     std::string memoryBudget;
-    int threads = 0;
     int device = -1;
     std::optional<int> columns;
     std::string layout;

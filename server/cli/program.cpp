@@ -1,6 +1,7 @@
 #include "base/log.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/thread_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -77,7 +78,10 @@ int runProgram(int argc, char** argv) {
     }
     try {
         for (const auto& [command, action] : choices)
-            if (command->parsed()) return action();
+            if (command->parsed()) {
+                const ThreadLimit limit(threadsAskedFor(*command));
+                return action();
+            }
     } catch (const std::exception& error) {
         return reportFailure(error);
     }

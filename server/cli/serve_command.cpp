@@ -1,5 +1,6 @@
 #include "base/byte_size.h"
 #include "base/log.h"
+#include "base/thread_count.h"
 #include "cli/commands.h"
 #include "cli/demo/demo_files.h"
 #include "cli/demo/demo_workbook.h"
@@ -95,6 +96,11 @@ void announceDevice(const RenderDevice& device, const engine::EngineOptions& opt
             "; --texture-budget and --memory-budget change them");
 }
 
+void announceThreads() {
+    const auto count = threadCount();
+    logInfo("threads: " + std::to_string(count.threads) + " (" + count.reason + "); --threads lowers that");
+}
+
 void saveWhatIsNotSaved(const engine::Engine& engine) {
     try {
         if (const auto file = engine.saveRecovery())
@@ -106,6 +112,7 @@ void saveWhatIsNotSaved(const engine::Engine& engine) {
 
 int runServe(const ServeArguments& arguments) {
     const auto signals = blockStopSignals();
+    announceThreads();
     const auto options = engineOptions(arguments.engine);
     const auto levels = levelSettings(arguments.levels);
     engine::Engine engine(options);

@@ -1,20 +1,18 @@
 #include "engine/dataset_keeper.h"
 
 #include "base/errors.h"
+#include "base/thread_count.h"
 
 #include <algorithm>
-#include <thread>
 
 namespace voxsheet::engine {
 
 namespace {
 
-int importWorkers(const EngineOptions& options) {
-    const int cores =
-        options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+int importWorkers() {
     // Imports are children that read and build with several threads of their own; more of them only fight
     // for memory.
-    return std::clamp(cores, 1, 4);
+    return std::clamp(threadCount().threads, 1, 4);
 }
 
 std::vector<std::filesystem::path> allowedFolders(const EngineOptions& options) {
@@ -44,8 +42,7 @@ DatasetKeeper::DatasetKeeper(const EngineOptions& options, Importer importer,
       roots_(allowedFolders(options)),
       store_(std::make_shared<const store::VolumeStore>(options.storeDir, options.storeLimitBytes)),
       volumes_(std::make_shared<store::StoreVolumeProvider>(store_)),
-      imports_(importWorkers(options),
-               [this](const std::string& id, bool isSettled) { settled(isSettled, id); }),
+      imports_(importWorkers(), [this](const std::string& id, bool isSettled) { settled(isSettled, id); }),
       computations_(1, [this](const std::string&, bool isSettled) { settled(isSettled, {}); }) {}
 
 void DatasetKeeper::settled(bool isSettled, const std::string& importId) {

@@ -40,7 +40,6 @@ struct EngineOptions {
     /// Samples kept in host memory, so that what leaves the textures need not be read from disk again; 0 = a
     /// quarter of RAM. Also what one import or formula may use.
     std::uint64_t memoryBudgetBytes = 0;
-    int threads = 0; ///< 0 = the cores this process may run on
     int device = -1;
     std::filesystem::path importer; ///< voxsheet-import; empty = beside this program
     std::filesystem::path

@@ -14,7 +14,6 @@
 #include <iterator>
 #include <set>
 
-#include <sched.h>
 #include <unistd.h>
 
 namespace voxsheet::engine {
@@ -31,10 +30,6 @@ EngineOptions completed(EngineOptions options) {
         options.memoryBudgetBytes = hostMemoryBytes() / 4;
     }
     if (options.storeLimitBytes == 0) options.storeLimitBytes = 20ULL << 30U;
-    if (options.threads <= 0) {
-        cpu_set_t cores;
-        options.threads = ::sched_getaffinity(0, sizeof(cores), &cores) == 0 ? CPU_COUNT(&cores) : 1;
-    }
     std::error_code error;
     for (const fs::path& folder : {options.storeDir, options.uploadDir}) {
         fs::create_directories(folder, error);

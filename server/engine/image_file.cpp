@@ -1,6 +1,7 @@
 #include "engine/image_file.h"
 
 #include "base/errors.h"
+#include "base/thread_count.h"
 
 #include <algorithm>
 #include <cctype>
@@ -133,6 +134,7 @@ PixelFormat pixelFormatFor(const std::filesystem::path& file) {
 
 void writeImageFile(const TilePixels& picture, const std::filesystem::path& file) {
     const FileKind kind = kindOf(file);
+    OIIO::attribute("threads", threadCount().threads);
     const auto samples = static_cast<std::size_t>(std::max(picture.size.x, 0)) *
                          static_cast<std::size_t>(std::max(picture.size.y, 0)) * 4;
     if (samples == 0 || (picture.rgba8.size() != samples && picture.rgba32f.size() != samples)) {

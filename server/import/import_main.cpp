@@ -1,6 +1,7 @@
 // voxsheet-import: reads one source into the volume store, or shows what headers say. A process of its own,
 // because files come from anywhere and some readers are not ours: whatever happens here costs one import (see
 // client/import_protocol.h).
+#include "base/thread_count.h"
 #include "import/child/import_job.h"
 #include "import/child/process_limits.h"
 #include "import/client/import_options_json.h"
@@ -24,6 +25,7 @@ struct Arguments {
     std::uint64_t storeLimit = 0;
     std::string options = "{}";
     bool headerOnly = false;
+    int threads = 0;
     ProcessLimits process;
     JobLimits job;
     std::vector<std::string> files;
@@ -114,6 +116,7 @@ void describe(CLI::App& app, Arguments& arguments) {
     app.add_option("--memory-limit", arguments.process.memoryBytes,
                    "bytes this process may use, 0 = no limit");
     app.add_option("--max-voxel-bytes", arguments.job.maxVoxelBytes, "bytes of voxels that a file may hold");
+    app.add_option("--threads", arguments.threads, "threads to work with, 0 = all that this process may use");
     app.add_option("--cpu-seconds", arguments.process.cpuSeconds, "processor time this process may use");
     app.add_option("--parent", arguments.process.parent, "process to end with");
     app.add_option("files", arguments.files, "files to read")->required();
@@ -132,6 +135,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    useThreads(chooseThreads(arguments.threads, permittedThreads()));
     arguments.job.memoryBytes = arguments.process.memoryBytes;
     const AnswerWriter answers(takeStandardOutput());
     bool good = true;

@@ -517,13 +517,4 @@ TEST(ApiLook, ServeBeginsWithThePresetAndTheSettingsThatItWasGiven) {
     EXPECT_EQ(said(1, "technique").at("origin"), "cell");
 }
 
-TEST(ApiBasePath, PageAndApiBelowAPrefix) {
-    ServedProgram program(1, {"--base-path", "/user/me"});
-    EXPECT_EQ(program.get("/user/me/api/v1").status, 200);
-    EXPECT_EQ(program.get("/api/v1").status, 200);
-    const auto page = program.askBare("GET", "/user/me/?token=" + program.token(), "Host: localhost\r\n");
-    EXPECT_EQ(page.status, 200);
-    EXPECT_NE(page.field("Set-Cookie").find("Path=/user/me/"), std::string::npos);
-}
-
 } // namespace

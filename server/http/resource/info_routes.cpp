@@ -1,3 +1,4 @@
+#include "base/thread_count.h"
 #include "http/resource/api_context.h"
 #include "http/route/json_answer.h"
 #include "sheet/style_keys.h"
@@ -32,6 +33,7 @@ Response info(const ApiContext& context, const std::vector<std::string>& devices
     const auto& options = context.engine.options();
     const auto residency = context.engine.residency();
     const auto* device = context.engine.device();
+    const auto threads = threadCount();
     return jsonAnswer(nlohmann::json{{"name", "Voxsheet"},
                                      {"version", context.settings.version},
                                      {"device", deviceJson(context.engine, devices)},
@@ -40,6 +42,7 @@ Response info(const ApiContext& context, const std::vector<std::string>& devices
                                        {"texture_why", device != nullptr ? device->textureBudgetReason : ""},
                                        {"memory", options.memoryBudgetBytes},
                                        {"store", options.storeLimitBytes}}},
+                                     {"threads", {{"count", threads.threads}, {"why", threads.reason}}},
                                      {"limits",
                                       {{"upload_bytes", context.settings.uploadLimitBytes},
                                        {"cells", sheet::kMaxCells},
@@ -58,8 +61,8 @@ void addInfoRoutes(Router& router, const ApiContext& context) {
         {.method = "GET",
          .pattern = "/api/v1",
          .handler = [&context, devices = std::move(devices)](Request&) { return info(context, devices); },
-         .summary = "Version, device and why it was chosen, budgets, limits, roots",
-         .answerDoc = "{name, version, device, budgets, limits, demo, roots}"});
+         .summary = "Version, device and why it was chosen, budgets, threads and why, limits, roots",
+         .answerDoc = "{name, version, device, budgets, threads, limits, demo, roots}"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/keys",

@@ -99,8 +99,15 @@ std::string normalisedBasePath(const std::string& text) {
         path.pop_back();
     if (path.empty()) return {};
     if (path.front() != '/') path.insert(path.begin(), '/');
-    if (!std::all_of(path.begin(), path.end(), isValidPathCharacter) || path.find("//") != std::string::npos)
-        throw InvalidInput("base path '" + text + "'", "it is not a path of letters, digits and -._~/")
+    const auto segments = segmentsOf(path);
+    const bool walks = std::any_of(segments.begin(), segments.end(), [](std::string_view segment) {
+        return segment.empty() || segment == "." || segment == ".."; // browsers and proxies rewrite these
+    });
+    if (walks || !std::all_of(path.begin(), path.end(), isValidPathCharacter) || !percentDecoded(path, false))
+        throw InvalidInput(
+            "base path '" + text + "'",
+            "it is not a path of letters, digits, -._~ and percent escapes without '.' and '..'",
+            "give the prefix that the proxy adds, e.g. /user/me/voxsheet")
             .withField("base-path");
     return path;
 }

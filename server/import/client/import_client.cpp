@@ -1,6 +1,7 @@
 #include "import/import_client.h"
 
 #include "base/log.h"
+#include "base/thread_count.h"
 #include "import/client/blocked_watch.h"
 #include "import/client/child_process.h"
 #include "import/client/import_options_json.h"
@@ -131,6 +132,7 @@ std::vector<std::string> commonArguments(const ImporterSettings& settings, const
             "--options",         canonicalOptions(importOptionsFromJson(options)),
             "--memory-limit",    std::to_string(memoryLimit(settings)),
             "--max-voxel-bytes", std::to_string(settings.maxVoxelBytes),
+            "--threads",         std::to_string(threadCount().threads),
             "--cpu-seconds",     std::to_string(static_cast<long>(settings.totalSeconds) + 1)};
 }
 

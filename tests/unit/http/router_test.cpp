@@ -112,7 +112,10 @@ TEST(Application, BasePathWithAndWithoutPrefix) {
     EXPECT_EQ(redirect.status, 308);
     EXPECT_EQ(redirect.headers.find("Location"), "/user/me/");
     EXPECT_THROW(static_cast<void>(normalisedBasePath("/a b")), InvalidInput);
-    EXPECT_THROW(static_cast<void>(normalisedBasePath("//evil.example")), InvalidInput);
+    EXPECT_EQ(normalisedBasePath("a%20b/"), "/a%20b");
+    for (const char* bad : {"//evil.example", "/a//b", "/a/../b", "/.", "..", "/a?b", "/a#b", "/a%2",
+                            "/\xC3\xA9", "http://host/a", "/a;b", "/a\\b"})
+        EXPECT_THROW(static_cast<void>(normalisedBasePath(bad)), InvalidInput) << bad;
 }
 
 TEST(Problem, EveryKindHasAStatus) {
