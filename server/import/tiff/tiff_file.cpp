@@ -25,29 +25,6 @@ T tag(TIFF* handle, std::uint32_t which) {
     return value;
 }
 
-std::optional<ScalarType> typeOf(int bits, int sampleFormat) {
-    if (sampleFormat == SAMPLEFORMAT_IEEEFP) {
-        if (bits == 32) return ScalarType::F32;
-        if (bits == 64) return ScalarType::F64;
-        return std::nullopt;
-    }
-    const bool isSigned = sampleFormat == SAMPLEFORMAT_INT;
-    if (!isSigned && sampleFormat != SAMPLEFORMAT_UINT && sampleFormat != SAMPLEFORMAT_VOID)
-        return std::nullopt;
-    switch (bits) {
-    case 8:
-        return isSigned ? ScalarType::I8 : ScalarType::U8;
-    case 16:
-        return isSigned ? ScalarType::I16 : ScalarType::U16;
-    case 32:
-        return isSigned ? ScalarType::I32 : ScalarType::U32;
-    case 64:
-        return isSigned ? ScalarType::I64 : ScalarType::U64;
-    default:
-        return std::nullopt;
-    }
-}
-
 std::optional<PageColours> coloursOf(TIFF* handle, int samples) {
     const auto photometric = tag<std::uint16_t>(handle, TIFFTAG_PHOTOMETRIC);
     switch (photometric) {
@@ -143,7 +120,8 @@ struct TiffCallbacks {
 };
 
 std::string PageFormat::text() const {
-    return std::to_string(width) + " x " + std::to_string(height) + " " + std::string(scalarName(type)) +
+    return std::to_string(width) + " x " + std::to_string(height) + " " + std::string(scalarName(type())) +
+           (sample.isPacked() ? " of " + std::to_string(sample.bits) + " bits" : "") +
            (samples > 1 ? ", " + std::to_string(samples) + " samples per pixel" : "") +
            (colours == PageColours::Palette ? " with a palette" : "");
 }
@@ -211,20 +189,20 @@ PageFormat TiffFile::format(int page) const {
     if (!TIFFIsCODECConfigured(static_cast<std::uint16_t>(compression)))
         refuse("is compressed in a way that cannot be read here (number " + std::to_string(compression) + ")",
                "save it without compression");
-    const auto type = typeOf(bits, sampleFormat);
-    if (!type)
+    const auto sample = sampleFormatOf(bits, sampleFormat);
+    if (!sample)
         refuse("has samples of " + std::to_string(bits) + " bits" +
                (sampleFormat == SAMPLEFORMAT_IEEEFP                                     ? ", floating point"
                 : sampleFormat == SAMPLEFORMAT_UINT || sampleFormat == SAMPLEFORMAT_INT ? ""
                                                                                         : ", complex"));
-    format.type = *type;
+    format.sample = *sample;
     const auto colours = coloursOf(handle, format.samples);
     if (!colours)
         refuse("has colours of a kind that cannot be read here (photometric interpretation " +
                std::to_string(tag<std::uint16_t>(handle, TIFFTAG_PHOTOMETRIC)) + ")");
     format.colours = *colours;
-    if (format.colours == PageColours::Palette && format.type != ScalarType::U8)
-        refuse("has a palette for samples that are not of 8 bits");
+    if (format.colours == PageColours::Palette && format.type() != ScalarType::U8)
+        refuse("has a palette for samples of more than 8 bits");
     format.alphaSample = alphaSampleOf(handle, format.samples);
     return format;
 }
@@ -239,6 +217,7 @@ PageTags TiffFile::tags() const {
     tags.yResolution = resolution(handle, TIFFTAG_YRESOLUTION);
     tags.resolutionUnit = tag<std::uint16_t>(handle, TIFFTAG_RESOLUTIONUNIT);
     tags.orientation = tag<std::uint16_t>(handle, TIFFTAG_ORIENTATION);
+    if (tags.orientation < 1 || tags.orientation > 8) tags.orientation = 1;
     const auto kind = tag<std::uint32_t>(handle, TIFFTAG_SUBFILETYPE);
     tags.reducedOrMask = (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
     tags.mostBytesPerFileByte = mostBytesPerFileByte(tag<std::uint16_t>(handle, TIFFTAG_COMPRESSION));
@@ -250,12 +229,12 @@ void TiffFile::readStrips(const PageFormat& format, int page, const std::functio
     const bool separate = tag<std::uint16_t>(handle, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
     const auto strip = std::clamp(tag<std::uint32_t>(handle, TIFFTAG_ROWSPERSTRIP), 1U, format.height);
     const int perBlock = separate ? 1 : format.samples;
-    const auto rowBytes =
-        std::uint64_t{format.width} * static_cast<std::uint64_t>(perBlock) * scalarBytes(format.type);
+    const auto bytesPerRow =
+        rowBytes(format.sample, std::size_t{format.width} * static_cast<std::size_t>(perBlock));
     for (int sample = 0; sample < format.samples; sample += perBlock)
         for (std::uint32_t row = 0; row < format.height;) {
             const auto rows = std::min(strip, format.height - row);
-            block_.resize(rows * rowBytes);
+            block_.resize(rows * bytesPerRow);
             const auto got = TIFFReadEncodedStrip(
                 handle, TIFFComputeStrip(handle, row, static_cast<std::uint16_t>(sample)), block_.data(),
                 static_cast<tmsize_t>(block_.size()));
@@ -272,15 +251,14 @@ void TiffFile::readTiles(const PageFormat& format, int page, const std::function
     const auto width = tag<std::uint32_t>(handle, TIFFTAG_TILEWIDTH);
     const auto height = tag<std::uint32_t>(handle, TIFFTAG_TILELENGTH);
     const int perBlock = separate ? 1 : format.samples;
-    const auto rowBytes =
-        std::uint64_t{width} * static_cast<std::uint64_t>(perBlock) * scalarBytes(format.type);
-    if (width == 0 || height == 0 || rowBytes > kMostBlockBytes / height ||
-        TIFFTileSize64(handle) != rowBytes * height)
+    const auto bytesPerRow = rowBytes(format.sample, std::size_t{width} * static_cast<std::size_t>(perBlock));
+    if (width == 0 || height == 0 || bytesPerRow > kMostBlockBytes / height ||
+        TIFFTileSize64(handle) != bytesPerRow * height)
         throw InvalidInput(source_->file->name(),
                            "page " + std::to_string(page) + " has tiles of " + std::to_string(width) + " x " +
                                std::to_string(height) + " pixels, which is not possible",
                            kCopyAgain);
-    block_.resize(rowBytes * height);
+    block_.resize(bytesPerRow * height);
     for (int sample = 0; sample < format.samples; sample += perBlock)
         for (std::uint64_t y = 0; y < format.height; y += height)
             for (std::uint64_t x = 0; x < format.width; x += width) {
@@ -298,38 +276,45 @@ void TiffFile::readTiles(const PageFormat& format, int page, const std::function
 void TiffFile::readPage(const PageFormat& expected, int page, std::span<const std::span<std::byte>> planes) {
     source_->firstError.clear();
     if (format(page) != expected) throw IoError(source_->file->name(), "it changed while it was read");
-    const auto valueBytes = scalarBytes(expected.type);
-    const auto use = [&](const Block& block) {
-        const auto pixelBytes = valueBytes * static_cast<std::size_t>(block.samples);
-        for (int sample = 0; sample < block.samples; ++sample)
-            for (std::size_t row = 0; row < block.height; ++row) {
-                const auto* from = block_.data() + row * block.rowPixels * pixelBytes +
-                                   static_cast<std::size_t>(sample) * valueBytes;
-                auto* to = planes[static_cast<std::size_t>(block.firstSample + sample)].data() +
-                           ((block.y + row) * expected.width + block.x) * valueBytes;
-                if (block.samples == 1) {
-                    std::memcpy(to, from, block.width * valueBytes);
-                    continue;
-                }
-                for (std::uint32_t i = 0; i < block.width; ++i, from += pixelBytes, to += valueBytes)
-                    std::memcpy(to, from, valueBytes);
-            }
-    };
+    const auto use = [&](const Block& block) { splitBlock(expected, block, planes); };
     if (TIFFIsTiled(handle_.get()))
         readTiles(expected, page, use);
     else
         readStrips(expected, page, use);
-    if (expected.colours == PageColours::Palette && planes.size() == 3) mapPalette(page, planes);
+    if (expected.colours == PageColours::Palette && planes.size() == 3)
+        mapPalette(page, expected.sample.bits, planes);
 }
 
-void TiffFile::mapPalette(int page, std::span<const std::span<std::byte>> planes) const {
-    constexpr std::size_t colours = 256;
+void TiffFile::splitBlock(const PageFormat& format, const Block& block,
+                          std::span<const std::span<std::byte>> planes) const {
+    const auto valueBytes = scalarBytes(format.type());
+    const auto samples = static_cast<std::size_t>(block.samples);
+    const auto bytesPerRow = rowBytes(format.sample, block.rowPixels * samples);
+    for (std::size_t sample = 0; sample < samples; ++sample)
+        for (std::size_t row = 0; row < block.height; ++row) {
+            const auto* from = block_.data() + row * bytesPerRow;
+            const auto to = planes[static_cast<std::size_t>(block.firstSample) + sample].subspan(
+                ((block.y + row) * format.width + block.x) * valueBytes, block.width * valueBytes);
+            if (format.sample.isPacked()) {
+                unpackRow(format.sample, from, sample, samples, to);
+            } else if (samples == 1) {
+                std::memcpy(to.data(), from, to.size());
+            } else {
+                for (std::size_t i = 0; i < block.width; ++i)
+                    std::memcpy(to.data() + i * valueBytes, from + (i * samples + sample) * valueBytes,
+                                valueBytes);
+            }
+        }
+}
+
+void TiffFile::mapPalette(int page, int bits, std::span<const std::span<std::byte>> planes) const {
+    const auto colours = std::size_t{1} << static_cast<unsigned>(bits);
     std::array<std::uint16_t*, 3> maps{};
     if (!TIFFGetField(handle_.get(), TIFFTAG_COLORMAP, &maps[0], &maps[1], &maps[2]))
         throw InvalidInput(source_->file->name(), "page " + std::to_string(page) + " has lost its palette",
                            kCopyAgain);
     // Some old writers put 8-bit colours in where 16 bits belong.
-    const bool wide = std::any_of(maps.begin(), maps.end(), [](const std::uint16_t* map) {
+    const bool wide = std::any_of(maps.begin(), maps.end(), [&](const std::uint16_t* map) {
         return std::any_of(map, map + colours, [](std::uint16_t value) { return value > 255; });
     });
     for (std::size_t pixel = 0; pixel < planes[0].size(); ++pixel) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "import/formats/input_file.h"
-#include "volume/scalar_type.h"
+#include "import/tiff/packed_samples.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ enum class PageColours {
     Grey,     ///< also a single sample of any meaning
     Inverted, ///< grey, 0 is shown white
     Rgb,
-    Palette, ///< one index of 8 bits per pixel
+    Palette, ///< one index of at most 8 bits per pixel
     Cmyk,
 };
 
@@ -30,12 +30,13 @@ struct PageFormat {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     int samples = 1; ///< per pixel, as stored: 1 for a palette
-    ScalarType type = ScalarType::U8;
+    SampleFormat sample;
     PageColours colours = PageColours::Grey;
     int alphaSample = -1; ///< index of the first sample that is alpha, -1: none
 
     bool operator==(const PageFormat&) const = default;
-    /// "640 x 480 u8, 3 samples".
+    [[nodiscard]] ScalarType type() const { return sample.type; }
+    /// "640 x 480 u8, 3 samples", "640 x 480 u16 of 12 bits".
     [[nodiscard]] std::string text() const;
 };
 
@@ -45,7 +46,7 @@ struct PageTags {
     std::optional<double> xResolution; ///< pixels per unit, finite and > 0
     std::optional<double> yResolution;
     int resolutionUnit = 2; ///< 1 none, 2 inch, 3 cm
-    int orientation = 1;    ///< 1: first row at the top, first sample at the left
+    int orientation = 1;    ///< 1 to 8; 1: first row at the top, first sample at the left
     bool reducedOrMask = false;
     /// More bytes than the page's voxels can come from by its compression; 0: no bound is known.
     std::uint64_t mostBytesPerFileByte = 0;
@@ -92,7 +93,10 @@ private:
     [[noreturn]] void fail(const std::string& doing) const;
     void readStrips(const PageFormat& format, int page, const std::function<void(const Block&)>& use);
     void readTiles(const PageFormat& format, int page, const std::function<void(const Block&)>& use);
-    void mapPalette(int page, std::span<const std::span<std::byte>> planes) const;
+    /// Of block_.
+    void splitBlock(const PageFormat& format, const Block& block,
+                    std::span<const std::span<std::byte>> planes) const;
+    void mapPalette(int page, int bits, std::span<const std::span<std::byte>> planes) const;
 
     std::unique_ptr<Source> source_; ///< libtiff keeps its address
     std::unique_ptr<::tiff, Closer> handle_;

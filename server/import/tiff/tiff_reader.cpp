@@ -82,11 +82,12 @@ PageTags collectPages(const InputFile& file, TiffFile& tiff, TiffPlan& plan,
 void checkBytes(const InputFile& file, const TiffPlan& plan, std::uint64_t bytesPerFileByte,
                 const ImportLimits& limits) {
     const auto pages = static_cast<std::int64_t>(plan.pageOffsets.size());
-    const auto valueBytes = scalarBytes(plan.format.type);
     (void)checkedBytes(file.name(), {plan.format.width, plan.format.height, pages, plan.planesPerPage()},
-                       valueBytes, limits);
-    const auto stored = checkedBytes(
-        file.name(), {plan.format.width, plan.format.height, pages, plan.format.samples}, valueBytes, limits);
+                       scalarBytes(plan.format.type()), limits);
+    const auto row = rowBytes(plan.format.sample,
+                              std::size_t{plan.format.width} * static_cast<std::size_t>(plan.format.samples));
+    const auto stored =
+        checkedBytes(file.name(), {static_cast<std::int64_t>(row), plan.format.height, pages}, 1, limits);
     if (bytesPerFileByte == 0 || stored / bytesPerFileByte <= file.bytes()) return;
     throw InvalidInput(file.name(),
                        "its pages need " + std::to_string(stored) +
@@ -190,8 +191,8 @@ void describeFields(const TiffPlan& plan, const StackDescription& stack, Dataset
         }
     if (names.size() == 1) names.clear(); // the name of a single field is makeFields's
     const auto count = plan.channels * plan.planesPerPage();
-    meta.sourceType = plan.format.type;
-    meta.fields = makeFields(count, plan.format.type, names);
+    meta.sourceType = plan.format.type();
+    meta.fields = makeFields(count, plan.format.type(), names);
     for (auto& field : meta.fields) {
         field.valueScale = stack.valueScale;
         field.valueOffset = stack.valueOffset;
@@ -207,8 +208,31 @@ void addNotes(const TiffPlan& plan, const PageTags& tags, std::vector<std::strin
         notes.emplace_back(
             "Its palette, which ImageJ uses for display, was left out; the numbers are as stored.");
     if (tags.orientation > 1)
-        notes.push_back("The file asks for its pictures to be turned or mirrored (orientation " +
-                        std::to_string(tags.orientation) + "), which was not done.");
+        notes.push_back("Its pictures are turned or mirrored, as the file asks (orientation " +
+                        std::to_string(tags.orientation) + ").");
+    if (plan.format.sample.isPacked() && isFloat(plan.format.type()))
+        notes.emplace_back("Its floats of 16 bits became floats of 32 bits, which hold them exactly.");
+}
+
+/// Rows and columns as the orientation says, within the box that begins at the origin; the numbers stay in
+/// their order. Source: TIFF 6.0, tag Orientation (274), here with y down.
+glm::dmat4 placedPages(int orientation, const glm::ivec3& dims, const glm::dvec3& spacing) {
+    const bool transposed = orientation >= 5;
+    const bool right = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
+    const bool bottom = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
+    glm::dvec3 column(0.0); // from pixel to pixel
+    glm::dvec3 row(0.0);
+    (transposed ? column.y : column.x) = spacing.x;
+    (transposed ? row.x : row.y) = spacing.y;
+    glm::dvec3 origin(0.0);
+    const auto mirror = [&](glm::length_t axis) {
+        origin[axis] = column[axis] * (dims.x - 1) + row[axis] * (dims.y - 1);
+        column[axis] = -column[axis];
+        row[axis] = -row[axis];
+    };
+    if (right) mirror(0);
+    if (bottom) mirror(1);
+    return affine({column, row, glm::dvec3(0, 0, spacing.z)}, origin);
 }
 
 class TiffReader : public SourceReader {
@@ -243,8 +267,7 @@ public:
         meta.grid.dims = {static_cast<int>(plan->format.width), static_cast<int>(plan->format.height),
                           plan->slices};
         const auto spacing = spacingOf(tags, stack, plan->slices, meta);
-        meta.grid.worldFromIndex =
-            affine({glm::dvec3(spacing.x, 0, 0), {0, spacing.y, 0}, {0, 0, spacing.z}}, glm::dvec3(0.0));
+        meta.grid.worldFromIndex = placedPages(tags.orientation, meta.grid.dims, spacing);
         validateGrid(meta.grid);
         describeFields(*plan, stack, meta);
         meta.times.clear();
@@ -281,7 +304,7 @@ private:
     static std::vector<std::vector<std::byte>> readChannel(TiffFile& tiff, const TiffPlan& plan, int channel,
                                                            int frame, const std::function<void()>& pageDone) {
         const auto pageBytes =
-            std::size_t{plan.format.width} * plan.format.height * scalarBytes(plan.format.type);
+            std::size_t{plan.format.width} * plan.format.height * scalarBytes(plan.format.type());
         std::vector<std::vector<std::byte>> volumes(
             static_cast<std::size_t>(plan.planesPerPage()),
             std::vector<std::byte>(pageBytes * static_cast<std::size_t>(plan.slices)));

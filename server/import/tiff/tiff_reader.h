@@ -10,8 +10,9 @@
 
 namespace voxsheet::import {
 
-/// Integers of 8 to 64 bits, f32, f64; grey, RGB, CMYK, palettes of 8 bits (as RGB; under ImageJ, whose
-/// palettes are for display, as the numbers themselves). Strips and tiles, all compressions of libtiff.
+/// Integers of 1 to 16, 32 and 64 bits, floats of 16 (as f32), 32 and 64; grey, RGB, CMYK, palettes of up to
+/// 8 bits (as RGB; under ImageJ, whose palettes are for display, as the numbers themselves). The orientation
+/// tag decides where rows and columns lie in the world. Strips and tiles, all compressions of libtiff.
 /// Thumbnails and masks among the pages are left out, with a note. Every other page must be of one size and
 /// type.
 [[nodiscard]] std::unique_ptr<SourceReader> makeTiffReader();
