@@ -1,6 +1,7 @@
 #include "engine/tile_identity.h"
 
 #include "base/errors.h"
+#include "base/program_file.h"
 
 #include <bit>
 #include <cstdint>
@@ -224,8 +225,8 @@ std::string textIdentity(std::string_view text) { return hex(XXH3_128bits(text.d
 
 const std::string& buildIdentity() {
     static const std::string identity = [] {
-        std::ifstream self("/proc/self/exe", std::ios::binary);
-        if (!self) throw IoError("the program", "it cannot read /proc/self/exe", "mount /proc");
+        std::ifstream self(programBytes(), std::ios::binary);
+        if (!self) throw IoError("the program", "its own file cannot be read", "check its permissions");
         XXH3_state_t* state = XXH3_createState();
         XXH3_128bits_reset(state);
         std::vector<char> block(1U << 20U);

@@ -1,6 +1,7 @@
 #include "engine/typesetter.h"
 
 #include "base/errors.h"
+#include "base/program_file.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -46,6 +47,8 @@ std::vector<char32_t> charactersOf(const std::string& text) {
 
 const std::string& pictureFont() {
     static const std::string font = [] {
+        const auto bundled = programFile().parent_path() / "../share/fonts/DejaVuSans.ttf";
+        if (std::filesystem::exists(bundled)) return bundled.lexically_normal().string();
         for (const char* file :
              {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
               "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",

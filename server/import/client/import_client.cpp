@@ -1,6 +1,7 @@
 #include "import/import_client.h"
 
 #include "base/log.h"
+#include "base/program_file.h"
 #include "base/thread_count.h"
 #include "import/client/blocked_watch.h"
 #include "import/client/child_process.h"
@@ -31,10 +32,7 @@ std::uint64_t memoryLimit(const ImporterSettings& settings) {
 
 std::filesystem::path importerOf(const ImporterSettings& settings) {
     if (!settings.executable.empty()) return settings.executable;
-    std::error_code error;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) throw IoError("importer", "the folder of this program is not known: " + error.message());
-    return self.parent_path() / "voxsheet-import";
+    return programFile().parent_path() / "voxsheet-import";
 }
 
 /// Why a child that gave no result ended, as one sentence about the file.
