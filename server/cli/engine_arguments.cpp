@@ -91,6 +91,10 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
                    "Columns of the sheet (default: chosen by the number of files)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--layout", arguments.layout, "Place files by their names, e.g. 'sub-{row}_{col}.nii.gz'");
+    app.add_flag(
+        "--series", arguments.series,
+        "Numbered files (slice_001.tif, slice_002.tif, …) are one dataset: slices make a volume, volumes are "
+        "time steps");
     addImportArguments(app, arguments.import);
 }
 
@@ -152,8 +156,9 @@ void openSources(engine::Engine& engine, const EngineArguments& arguments) {
         engine.setWorkbookJson(document, fs::absolute(first).parent_path(), engine::DocumentOrigin::File);
         return;
     }
-    auto workbook = workbookOfWords(arguments.sources, {arguments.columns, arguments.layout},
-                                    fs::current_path(), engine.keys());
+    auto workbook =
+        workbookOfWords(arguments.sources, {arguments.columns, arguments.layout, arguments.series},
+                        fs::current_path(), engine.keys());
     setImportOptions(workbook, arguments.import);
     engine.setWorkbookJson(sheet::workbookToJson(workbook), fs::current_path(), engine::DocumentOrigin::File);
 }

@@ -27,6 +27,7 @@ struct EngineArguments {
     int device = -1;
     std::optional<int> columns;
     std::string layout;
+    bool series = false;
     ImportArguments import;
 };
 

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/engine_arguments.h"
 #include "cli/exit_codes.h"
+#include "cli/named_sources.h"
 #include "engine/dataset_json.h"
 
 #include <CLI/CLI.hpp>
@@ -49,19 +50,21 @@ void printText(const std::string& file, const nlohmann::json& info) {
         row("note", note.get<std::string>());
 }
 
-/// Imports one file (into the store, where a later `serve` finds it) and describes it; null and a line on
-/// stderr when it fails.
-nlohmann::json describeFile(engine::Engine& engine, const std::string& file, const ImportArguments& import) {
+/// Imports one file, or one series (into the store, where a later `serve` finds it) and describes it. Throws
+/// what fails.
+nlohmann::json describeFiles(engine::Engine& engine, const std::vector<std::string>& files,
+                             const ImportArguments& import) {
     engine::ImportRequest request;
-    request.options = importOptionsFor(import, file);
-    request.files = {std::filesystem::absolute(file)};
+    request.options = importOptionsFor(import, files.front());
+    for (const auto& file : files)
+        request.files.push_back(std::filesystem::absolute(file));
     request.place = false;
     const auto name = engine.importDatasets({request}).at(0);
     engine.waitIdle(24 * 3600.0);
     const auto dataset = engine.dataset(name);
     if (dataset.failure) throw std::runtime_error(dataset.failure->message);
     auto info = engine::describeDataset(*dataset.meta);
-    info["file"] = file;
+    info["file"] = files.front();
     return info;
 }
 
@@ -71,9 +74,13 @@ int runInfo(const InfoArguments& arguments) {
     engine::Engine engine(options);
     int code = kExitDone;
     nlohmann::json all = nlohmann::json::array();
-    for (const auto& file : arguments.engine.sources) {
+    auto words = arguments.engine.sources;
+    const auto series = arguments.engine.series ? takeSeries(words) : SeriesFiles{};
+    for (const auto& file : words) {
         try {
-            auto info = describeFile(engine, file, arguments.engine.import);
+            const auto found = series.find(file);
+            auto info = describeFiles(engine, found == series.end() ? std::vector{file} : found->second,
+                                      arguments.engine.import);
             if (!arguments.json) printText(file, info);
             all.push_back(std::move(info));
         } catch (const Error& error) {
@@ -84,7 +91,7 @@ int runInfo(const InfoArguments& arguments) {
     }
     // One object for one file; a list for several.
     if (arguments.json && !all.empty())
-        std::printf("%s\n", (arguments.engine.sources.size() == 1 ? all[0] : all).dump(2).c_str());
+        std::printf("%s\n", (words.size() == 1 ? all[0] : all).dump(2).c_str());
     return code;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/named_sources.h"
 
+#include "http/resource/folder_listing.h"
 #include "sheet/commands.h"
 #include "sheet/dataset_names.h"
 #include "sheet/layout.h"
@@ -7,19 +8,23 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace voxsheet::cli {
 
 namespace {
 
 /// Names, places and titles by the same rules as any other import.
-sheet::AddDatasets datasetsOf(const std::vector<std::string>& paths, const std::filesystem::path& folder) {
+sheet::AddDatasets datasetsOf(const std::vector<std::string>& paths, const SeriesFiles& series,
+                              const std::filesystem::path& folder) {
     const auto names = sheet::distinguishingNames(paths);
     sheet::AddDatasets add;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         sheet::NamedDataset dataset;
         dataset.name = names[i];
-        dataset.source.files = {(folder / paths[i]).lexically_normal().string()};
+        const auto found = series.find(paths[i]);
+        for (const auto& file : found == series.end() ? std::vector{paths[i]} : found->second)
+            dataset.source.files.push_back((folder / file).lexically_normal().string());
         add.datasets.push_back(std::move(dataset));
     }
     return add;
@@ -57,8 +62,25 @@ void placeInFreeCells(sheet::Sheet& page, const std::vector<std::string>& formul
 
 bool isFormula(const std::string& word) { return word.starts_with('='); }
 
+SeriesFiles takeSeries(std::vector<std::string>& words) {
+    auto files = words;
+    std::erase_if(files, isFormula);
+    sheet::sortNaturally(files);
+    SeriesFiles found;
+    std::set<std::string> others;
+    for (const auto& series : http::findSeries(files)) {
+        auto& members = found[files[series.members.front()]];
+        for (const auto member : series.members)
+            members.push_back(files[member]);
+        others.insert(members.begin() + 1, members.end());
+    }
+    std::erase_if(words, [&](const std::string& word) { return others.contains(word); });
+    return found;
+}
+
 sheet::Workbook workbookOfWords(std::vector<std::string> words, const SheetShape& shape,
                                 const std::filesystem::path& folder, const sheet::KeyTable& keys) {
+    const auto series = shape.series ? takeSeries(words) : SeriesFiles{};
     std::vector<std::string> formulas;
     std::copy_if(words.begin(), words.end(), std::back_inserter(formulas), isFormula);
     if (formulas.empty()) sheet::sortNaturally(words);
@@ -68,7 +90,7 @@ sheet::Workbook workbookOfWords(std::vector<std::string> words, const SheetShape
 
     sheet::Workbook workbook;
     sheet::Sheet& page = workbook.sheets.front();
-    auto add = datasetsOf(paths, folder);
+    auto add = datasetsOf(paths, series, folder);
     add.sheet = page.name;
     add.columns = shape.columns;
     if (!shape.layout.empty()) {

@@ -35,7 +35,7 @@ struct ImporterSettings {
 };
 
 struct ImportRequest {
-    std::vector<std::filesystem::path> files;          ///< one dataset from these; now exactly one
+    std::vector<std::filesystem::path> files; ///< one dataset from these: a file, or a series in order
     nlohmann::json options = nlohmann::json::object(); ///< see import_options_json.h
 };
 

@@ -86,14 +86,11 @@ bool showHeaders(const Arguments& arguments, const AnswerWriter& answers) {
 }
 
 void importOne(const Arguments& arguments, const AnswerWriter& answers) {
-    if (arguments.files.size() != 1)
-        throw Unsupported("import of " + std::to_string(arguments.files.size()) + " files",
-                          "one dataset is read from one file", "import each file on its own");
     if (arguments.store.empty()) throw InvalidInput("volume store", "no folder is named", "use --store DIR");
     using Clock = std::chrono::steady_clock;
     auto lastReport = Clock::time_point{};
     ImportJob job;
-    job.file = arguments.files.front();
+    job.files.assign(arguments.files.begin(), arguments.files.end());
     job.options = importOptionsFromJson(store::parseJson(arguments.options, "--options"));
     job.limits = arguments.job;
     job.header = [&](const FilePreview& preview) { answers.write(preview); };
@@ -119,7 +116,8 @@ void describe(CLI::App& app, Arguments& arguments) {
     app.add_option("--threads", arguments.threads, "threads to work with, 0 = all that this process may use");
     app.add_option("--cpu-seconds", arguments.process.cpuSeconds, "processor time this process may use");
     app.add_option("--parent", arguments.process.parent, "process to end with");
-    app.add_option("files", arguments.files, "files to read")->required();
+    app.add_option("files", arguments.files, "files to read: one dataset, except with --header-only")
+        ->required();
     app.footer("Example: voxsheet-import --header-only brain.nii.gz");
 }
 

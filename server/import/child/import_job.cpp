@@ -1,6 +1,7 @@
 #include "import/child/import_job.h"
 
 #include "base/errors.h"
+#include "import/child/file_series.h"
 #include "import/client/import_options_json.h"
 #include "import/client/import_protocol.h"
 #include "import/formats/own_readers.h"
@@ -96,6 +97,30 @@ FilePreview previewOf(const SourceHeader& header) {
     return preview;
 }
 
+/// The header of one file, or of a series, and what reads it.
+struct OpenedFiles {
+    std::vector<SeriesPart> parts;
+    SourceHeader header;
+
+    [[nodiscard]] std::vector<std::string> read(const ArraySink& sink, const ReadProgress& progress) const {
+        return parts.size() == 1 ? parts.front().reader->readData(header, sink, progress)
+                                 : readSeries(parts, header, sink, progress);
+    }
+};
+
+OpenedFiles openFiles(const ReaderRegistry& readers, const ImportJob& job) {
+    OpenedFiles opened;
+    for (const auto& file : job.files) {
+        const auto& reader = readers.choose(file, job.options);
+        opened.parts.push_back({&reader, readHeader(reader, file, job.options, job.limits)});
+    }
+    ImportLimits limits;
+    limits.maxBytes = job.limits.maxVoxelBytes;
+    opened.header =
+        opened.parts.size() == 1 ? opened.parts.front().header : combinedHeader(opened.parts, limits);
+    return opened;
+}
+
 } // namespace
 
 FilePreview previewSource(const ReaderRegistry& readers, const std::filesystem::path& file,
@@ -107,15 +132,19 @@ FilePreview previewSource(const ReaderRegistry& readers, const std::filesystem::
 
 std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeStore& store,
                             const ImportJob& job) {
-    const auto& reader = readers.choose(job.file, job.options);
-    const auto before = store::stampOf(job.file);
-    auto header = readHeader(reader, job.file, job.options, job.limits);
+    if (job.files.empty()) throw InvalidInput("import", "no file is named").withField("files");
+    const auto file = job.files.front().string();
+    const auto before = store::stampOf(job.files.front());
+    auto opened = openFiles(readers, job);
+    auto& header = opened.header;
     const auto stamps = stampsOf(header);
     if (stamps.empty() || stamps.front() != before)
-        throw IoError(job.file.string(), "it changed while it was being read", "import it again");
+        throw IoError(file, "it changed while it was being read", "import it again");
 
-    const auto key = store::importKey(stamps, kImporterVersion, canonicalOptions(job.options));
-    checkMemory(job.file.string(), header, job.limits);
+    // One file may name the same others as a series holds.
+    const auto key = store::importKey(
+        stamps, kImporterVersion, canonicalOptions(job.options) + (job.files.size() > 1 ? " series" : ""));
+    checkMemory(file, header, job.limits);
     store::StoreWriter* writer = nullptr;
     const auto sink =
         applyOptions(header, job.options, [&writer](int field, int step, std::vector<std::byte>&& samples) {
@@ -126,17 +155,17 @@ std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeSt
     if (store.open(key)) return key;
 
     store.makeRoom(store::entryBytes(header.meta), key);
-    checkDisk(job.file.string(), store, header.meta);
+    checkDisk(file, store, header.meta);
     store::StoreWriter entry(store, header.meta);
     writer = &entry;
-    naming(job.file.string(), [&] {
+    naming(file, [&] {
         // The last hundredth is for syncing to the disk.
-        entry.addNotes(reader.readData(header, sink, [&job](double fraction) {
+        entry.addNotes(opened.read(sink, [&job](double fraction) {
             if (job.progress) job.progress(0.99 * fraction);
         }));
     });
     if (stampsOf(header) != stamps)
-        throw IoError(job.file.string(), "it changed while it was being read", "import it again");
+        throw IoError(file, "it changed while it was being read", "import it again");
     entry.commit();
     return key;
 }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace voxsheet::import {
 
@@ -22,7 +23,7 @@ struct JobLimits {
                                         const ImportOptions& options, const JobLimits& limits);
 
 struct ImportJob {
-    std::filesystem::path file;
+    std::vector<std::filesystem::path> files; ///< one, or a series in order (file_series.h)
     ImportOptions options;
     JobLimits limits;
     std::function<void(const FilePreview&)> header; ///< called once, before any voxel is read

@@ -77,11 +77,16 @@ public:
         }
     }
 
-    /// From now on the limits of the header phase hold (again, for the next file).
-    void startHeader(const std::string& file) {
-        std::error_code error;
-        const auto bytes = std::filesystem::file_size(file, error);
-        headerCpuSeconds_ = settings_.headerCpuSeconds + (error ? 0.0 : static_cast<double>(bytes) / 100e6);
+    /// From now on the limits of the header phase hold, for these files (again, for the next ones).
+    void startHeader(const std::vector<std::filesystem::path>& files) {
+        constexpr double secondsPerFurtherFile = 0.02;
+        headerCpuSeconds_ =
+            settings_.headerCpuSeconds + secondsPerFurtherFile * static_cast<double>(files.size() - 1);
+        for (const auto& file : files) {
+            std::error_code error;
+            const auto bytes = std::filesystem::file_size(file, error);
+            if (!error) headerCpuSeconds_ += static_cast<double>(bytes) / 100e6;
+        }
         cpuAtStart_ = child_.cpuSeconds();
         phaseStart_ = Clock::now();
         inHeader_ = true;
@@ -152,7 +157,7 @@ ImportResult runImport(const ImporterSettings& settings, const ImportRequest& re
         arguments.push_back(argumentFor(each));
 
     Session session(settings, arguments, cancelled);
-    session.startHeader(file);
+    session.startHeader(request.files);
     double shown = 0.0;
     while (auto message = session.next(file)) {
         if (const auto* key = std::get_if<KeyMessage>(&*message)) {
@@ -183,7 +188,7 @@ previewFiles(const ImporterSettings& settings, const std::vector<std::filesystem
         try {
             while (results.size() < files.size()) {
                 const auto file = files[results.size()].string();
-                session.startHeader(file);
+                session.startHeader({files[results.size()]});
                 auto message = session.next(file);
                 if (!message) session.failForEnd(file);
                 if (const auto* error = std::get_if<ErrorMessage>(&*message)) {

@@ -29,7 +29,7 @@ TEST(NamedSources, FilesAloneAreSortedNaturally) {
 }
 
 TEST(NamedSources, BesideAFormulaEveryWordStaysInItsPlace) {
-    const auto workbook = workbookOf({"z.nrrd", "a.nrrd", "=B1-A1"}, {3, ""});
+    const auto workbook = workbookOf({"z.nrrd", "a.nrrd", "=B1-A1"}, {3, "", false});
     EXPECT_EQ(sourceAt(workbook, "A1"), "z.nrrd");
     EXPECT_EQ(sourceAt(workbook, "B1"), "a.nrrd");
     EXPECT_EQ(sourceAt(workbook, "C1"), "=B1-A1");
@@ -39,7 +39,7 @@ TEST(NamedSources, BesideAFormulaEveryWordStaysInItsPlace) {
 }
 
 TEST(NamedSources, AFormulaMayStandFirstAndRowsFollowTheColumns) {
-    const auto workbook = workbookOf({"=A2-B1", "b", "c", "=B1/2", "d"}, {2, ""});
+    const auto workbook = workbookOf({"=A2-B1", "b", "c", "=B1/2", "d"}, {2, "", false});
     EXPECT_EQ(sourceAt(workbook, "A1"), "=A2-B1");
     EXPECT_EQ(sourceAt(workbook, "B1"), "b");
     EXPECT_EQ(sourceAt(workbook, "A2"), "c");
@@ -54,11 +54,24 @@ TEST(NamedSources, WithoutColumnsTheSheetIsNearSquare) {
 }
 
 TEST(NamedSources, ALayoutPlacesFilesAndLeavesTheFreeCellsToFormulas) {
-    const auto workbook = workbookOf({"=A1", "s2_x.nii", "s1_x.nii", "s1_y.nii"}, {{}, "{row}_{col}.nii"});
+    const auto workbook =
+        workbookOf({"=A1", "s2_x.nii", "s1_x.nii", "s1_y.nii"}, {{}, "{row}_{col}.nii", false});
     EXPECT_EQ(sourceAt(workbook, "A1"), "s1_x.nii");
     EXPECT_EQ(sourceAt(workbook, "B1"), "s1_y.nii");
     EXPECT_EQ(sourceAt(workbook, "A2"), "s2_x.nii");
     EXPECT_EQ(sourceAt(workbook, "B2"), "=A1");
+}
+
+TEST(NamedSources, NumberedFilesAreOneDatasetWhenAskedFor) {
+    const std::vector<std::string> words{"=B1", "s10.tif", "s9.tif", "head.nrrd", "s8.tif"};
+    const auto workbook = workbookOf(words, {2, "", true});
+    EXPECT_EQ(workbook.datasets.size(), 2U);
+    EXPECT_EQ(workbook.datasets.at("s8.tif").files,
+              (std::vector<std::string>{"/data/s8.tif", "/data/s9.tif", "/data/s10.tif"}));
+    EXPECT_EQ(sourceAt(workbook, "A1"), "=B1");
+    EXPECT_EQ(sourceAt(workbook, "B1"), "head.nrrd");
+    EXPECT_EQ(sourceAt(workbook, "A2"), "s8.tif");
+    EXPECT_EQ(workbookOf(words, {2, "", false}).datasets.size(), 4U);
 }
 
 TEST(NamedSources, AFileOfSuchANameIsReachedByItsFolder) {
@@ -68,7 +81,7 @@ TEST(NamedSources, AFileOfSuchANameIsReachedByItsFolder) {
 }
 
 TEST(NamedSources, ColumnsThatASheetCannotHaveAreNamed) {
-    EXPECT_THROW((void)workbookOf({"a", "=A1"}, {0, ""}), InvalidInput);
+    EXPECT_THROW((void)workbookOf({"a", "=A1"}, {0, "", false}), InvalidInput);
 }
 
 } // namespace
