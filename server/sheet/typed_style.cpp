@@ -65,6 +65,7 @@ private:
 using Words2 = std::array<std::string_view, 2>;
 using Words3 = std::array<std::string_view, 3>;
 using Words4 = std::array<std::string_view, 4>;
+using Words5 = std::array<std::string_view, 5>;
 using Words6 = std::array<std::string_view, 6>;
 
 constexpr Words6 kTechniques{"slices", "raycast", "mip", "surface", "isosurface", "plane"};
@@ -84,7 +85,7 @@ constexpr Words3 kShadingModels{"auto", "none", "phong"};
 constexpr Words3 kGradients{"auto", "texture", "onthefly"};
 constexpr Words2 kLightFrames{"view", "world"};
 constexpr Words2 kTextureFormats{"auto", "half"};
-constexpr Words4 kPlaneAxes{"axial", "coronal", "sagittal", "custom"};
+constexpr Words5 kPlaneAxes{"axial", "coronal", "sagittal", "custom", "hkl"};
 constexpr Words3 kFrames{"fit", "centre", "world"};
 constexpr Words2 kPlaneUnits{"fraction", "world"};
 constexpr Words2 kPlaneInterpolations{"linear", "nearest"};
@@ -174,6 +175,7 @@ PlaneStyle planeOf(const Reader& read) {
     PlaneStyle plane;
     plane.axis = read.choice<PlaneAxis>("plane.axis", kPlaneAxes);
     plane.normal = read.get<glm::dvec3>("plane.normal");
+    plane.hkl = read.get<glm::dvec3>("plane.hkl");
     plane.position = read.get<double>("plane.position");
     plane.interpolation = read.choice<PlaneInterpolation>("plane.interpolation", kPlaneInterpolations);
     plane.crosshair = read.find<glm::dvec3>("plane.crosshair");
@@ -284,6 +286,10 @@ void requirePlaneConsistent(const PlaneStyle& plane) {
     if (plane.axis == PlaneAxis::Custom && isZero(plane.normal))
         throw InvalidInput("plane.normal", "it has no length", "give a direction such as 1,0,1")
             .withField("plane.normal");
+    if (plane.axis == PlaneAxis::Hkl && (isZero(plane.hkl) || plane.hkl != glm::round(plane.hkl)))
+        throw InvalidInput("plane.hkl", "Miller indices are whole numbers and not all zero",
+                           "give three from -99 to 99 such as 1,1,0")
+            .withField("plane.hkl");
 }
 
 void requirePeriodicConsistent(const PeriodicStyle& periodic) {

@@ -131,8 +131,8 @@ struct LayersStyle {
     bool operator==(const LayersStyle&) const = default;
 };
 
-/// Normals along z, y and x of the world, or PlaneStyle::normal.
-enum class PlaneAxis { Axial, Coronal, Sagittal, Custom };
+/// Normals along z, y and x of the world, PlaneStyle::normal, or that of the lattice planes PlaneStyle::hkl.
+enum class PlaneAxis { Axial, Coronal, Sagittal, Custom, Hkl };
 enum class PlaneInterpolation { Linear, Nearest };
 
 /// Of the crosshair: fractions of the drawn box's extents along the world's axes, or world coordinates.
@@ -146,6 +146,7 @@ struct PlaneStyle {
     PlaneInterpolation interpolation = PlaneInterpolation::Linear;
     std::optional<glm::dvec3> crosshair; ///< set: the plane passes through it, wherever `position` is
     PlaneUnits units = PlaneUnits::Fraction;
+    glm::dvec3 hkl{1.0}; ///< Hkl: Miller indices, whole numbers, not all zero
     bool operator==(const PlaneStyle&) const = default;
 };
 
@@ -223,7 +224,8 @@ struct TypedStyle {
 
 /// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100];
 /// periodic.replicate whole; normals (of a plane only where plane.axis is custom), directions and scales not
-/// zero; clip.box low < high. Throws InvalidInput with the field at fault.
+/// zero; where plane.axis is hkl, plane.hkl whole and not zero; clip.box low < high. Throws InvalidInput with
+/// the field at fault.
 void requireConsistent(const TypedStyle& style);
 
 } // namespace voxsheet::sheet

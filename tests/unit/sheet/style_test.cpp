@@ -263,7 +263,8 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
                                        0.25,
                                        PlaneInterpolation::Nearest,
                                        std::nullopt,
-                                       PlaneUnits::Fraction}));
+                                       PlaneUnits::Fraction,
+                                       {1, 1, 1}}));
     sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"plane.crosshair", {3, 4.5, -6}},
                                                            {"plane.units", "world"},
                                                            {"camera.frame", "centre"}});
@@ -327,6 +328,13 @@ TEST(Style, DegenerateClipsPlanesAndLightsAreRefused) {
     EXPECT_NO_THROW(requireConsistent(style)) << "not in use";
     style.plane.axis = PlaneAxis::Custom;
     EXPECT_EQ(refusedField(style), "plane.normal");
+    style.plane.axis = PlaneAxis::Hkl;
+    EXPECT_NO_THROW(requireConsistent(style));
+    for (const glm::dvec3 hkl : {glm::dvec3(0.0), glm::dvec3(1.0, 0.5, 0.0)}) {
+        style.plane.hkl = hkl;
+        EXPECT_EQ(refusedField(style), "plane.hkl");
+    }
+    EXPECT_THROW((void)parseAssignment(testKeys(), "plane.hkl=100,0,0"), InvalidInput);
 }
 
 } // namespace
