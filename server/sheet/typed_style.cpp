@@ -1,6 +1,7 @@
 #include "sheet/typed_style.h"
 
 #include "base/errors.h"
+#include "sheet/label_names.h"
 #include "sheet/number_text.h"
 #include "sheet/style.h"
 
@@ -162,6 +163,27 @@ LayersStyle layersOf(const Reader& read) {
     return {read.find<std::string>("layers").value_or(""), columnOf(read.rows("layers.weights"))};
 }
 
+LabelsStyle labelsOf(const Reader& read) {
+    LabelsStyle labels;
+    labels.show = read.choice<int>("labels.show", kSwitch) == 1;
+    labels.names = read.find<std::string>("labels.names").value_or("");
+    for (const double value : columnOf(read.rows("labels.hide")))
+        labels.hidden.insert(static_cast<std::int64_t>(std::clamp(std::round(value), -9e15, 9e15)));
+    labels.opacity = read.get<double>("labels.opacity");
+    return labels;
+}
+
+OverlayStyle overlayOf(const Reader& read) {
+    OverlayStyle overlay;
+    overlay.volume = read.find<std::string>("overlay.dataset").value_or("");
+    overlay.map = read.get<std::string>("overlay.map");
+    overlay.opacity = read.get<double>("overlay.opacity");
+    overlay.threshold = read.find<double>("overlay.threshold");
+    overlay.min = read.find<double>("overlay.min");
+    overlay.max = read.find<double>("overlay.max");
+    return overlay;
+}
+
 CrystalStyle crystalOf(const Reader& read) {
     CrystalStyle crystal;
     crystal.cell = read.choice<int>("crystal.cell", kSwitch) == 1;
@@ -225,7 +247,9 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.crystal = crystalOf(read);
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
+    style.labels = labelsOf(read);
     style.layers = layersOf(read);
+    style.overlay = overlayOf(read);
     style.plane = planeOf(read);
     style.shading = shadingOf(read);
     style.light = lightOf(read);
@@ -320,6 +344,13 @@ void requireConsistent(const TypedStyle& style) {
     requirePeriodicConsistent(style.periodic);
     requireClipConsistent(style.clip);
     requirePlaneConsistent(style.plane);
+    if (!style.labels.names.empty()) static_cast<void>(parseLabelNames(style.labels.names));
+    if (style.overlay.min && style.overlay.max && *style.overlay.min >= *style.overlay.max)
+        throw InvalidInput("overlay.min",
+                           numberText(*style.overlay.min) + " is not less than overlay.max, " +
+                               numberText(*style.overlay.max),
+                           "set both together")
+            .withField("overlay.min");
     requireLightConsistent(style.light);
 }
 

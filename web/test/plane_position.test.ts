@@ -82,9 +82,10 @@ test("planes of a lattice step by about a voxel, from lattice plane to lattice p
     };
     // (111) of the primitive vectors has the normal (1, 1, 1) and the distance 4 / sqrt(3).
     const shown = { "plane.axis": "hkl", "plane.hkl": [1, 1, 1], "periodic.replicate": [2, 1, 1] };
+    // A step of 1 / 8 of it moves by one voxel along each of the three axes.
     const reach = 4; // planes of the set that the box crosses: hkl . (2, 1, 1)
-    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 24), 2 / reach);
-    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 1), (1 + 1 / 24) / reach);
+    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 8), 2 / reach);
+    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 1), (1 + 1 / 8) / reach);
     // A shift moves the lattice points: the first step leads to a place counted from them.
     const shifted = { ...shown, "periodic.shift": [0.01, 0, 0], "plane.position": 1 / reach };
     near(stepped(fcc, shifted, 1), (1 + 0.01) / reach);

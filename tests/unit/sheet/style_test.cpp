@@ -278,6 +278,34 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
         EXPECT_THROW(parseStyleMap(testKeys(), wrong), InvalidInput) << wrong.dump();
 }
 
+TEST(Style, LabelAndOverlayKeysReachTheTypedStyle) {
+    Workbook workbook = filledWorkbook(1, 1);
+    Sheet& sheet = workbook.sheets[0];
+    EXPECT_EQ(resolveStyle(testKeys(), sheet, {0, 0}).style.labels, LabelsStyle{});
+    sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"labels.show", "on"},
+                                                           {"labels.names", "1: liver"},
+                                                           {"labels.hide", {{2}, {5}}},
+                                                           {"labels.opacity", 0.5},
+                                                           {"overlay.dataset", "B1"},
+                                                           {"overlay.map", "labels"},
+                                                           {"overlay.opacity", 0.25},
+                                                           {"overlay.threshold", -3},
+                                                           {"overlay.min", 1},
+                                                           {"overlay.max", 4}});
+    TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
+    EXPECT_EQ(style.labels, (LabelsStyle{true, "1: liver", {2, 5}, 0.5}));
+    EXPECT_EQ(style.overlay, (OverlayStyle{"B1", "labels", 0.25, -3.0, 1.0, 4.0}));
+    EXPECT_NO_THROW(requireConsistent(style));
+    style.overlay.max = 1.0;
+    EXPECT_EQ(refusedField(style), "overlay.min");
+    style.overlay.max = std::nullopt;
+    style.labels.names = "liver";
+    EXPECT_EQ(refusedField(style), "labels.names");
+    for (const char* refused :
+         {"labels.show=1", "labels.opacity=2", "overlay.opacity=-1", "overlay.map=nothing"})
+        EXPECT_THROW((void)parseAssignment(testKeys(), refused), InvalidInput) << refused;
+}
+
 TEST(Style, PeriodsAreWholeNumbers) {
     TypedStyle style = resolveStyle(testKeys(), Workbook{}.sheets[0], {0, 0}).style;
     EXPECT_EQ(style.periodic, PeriodicStyle{});
