@@ -10,8 +10,7 @@ SharedStages::SharedStages(gpu::Context& gpuContext)
 
 gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
     const auto& [tile, volumes, frame, target, rows] = request;
-    auto defines =
-        ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader, tile.categories);
+    auto defines = ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader);
     for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
                              ShadingStage::defines(tile.shading, volumes.gradients)})
         defines.insert(defines.end(), more.begin(), more.end());

@@ -28,7 +28,6 @@ glm::dvec3 normalOf(const sheet::PlaneStyle& plane) {
     case sheet::PlaneAxis::Sagittal:
         return kX;
     case sheet::PlaneAxis::Custom:
-    case sheet::PlaneAxis::Hkl:
         break;
     }
     return unitVector(plane.normal);
@@ -53,7 +52,6 @@ PlaneView planeView(const sheet::PlaneStyle& plane, bool anatomical) {
     case sheet::PlaneAxis::Sagittal:
         return viewOf(anatomical ? -kY : kY, kZ);
     case sheet::PlaneAxis::Custom:
-    case sheet::PlaneAxis::Hkl:
         break;
     }
     return customView(normalOf(plane));

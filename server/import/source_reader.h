@@ -15,6 +15,12 @@
 
 namespace voxsheet::import {
 
+/// What several files make together.
+enum class SeriesKind {
+    Stack, ///< slices, or slabs, of one volume
+    Steps, ///< volumes that follow each other in time
+};
+
 /// What a user may say about a file. Members starting with "raw" describe a file without a header and serve
 /// only there.
 struct ImportOptions {
@@ -32,6 +38,8 @@ struct ImportOptions {
     std::optional<int> resolution;     ///< of the volume made from a surface: samples along its longest axis
     std::optional<bool>
         divideByCellVolume; ///< CHGCAR family; by default decided by the name (LOCPOT, ELFCAR: no)
+    std::optional<SeriesKind>
+        series; ///< of several files; by default single slices are stacked, volumes are steps
 };
 
 struct ImportLimits {

@@ -172,11 +172,9 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     addTechnique(keys);
     addIsosurfaceKeys(keys);
     addPlaneKeys(keys);
-    addTransfer(keys, colourMapNames);
+    addTransfer(keys, std::move(colourMapNames));
     addRange(keys);
-    addLabelKeys(keys);
     addLayerKeys(keys);
-    addOverlayKeys(keys, colourMapNames);
     addPeriodicKeys(keys);
     addCrystalKeys(keys);
     addClipKeys(keys);

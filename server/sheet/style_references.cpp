@@ -11,8 +11,7 @@ namespace voxsheet::sheet {
 
 namespace {
 
-constexpr std::array<const char*, 4> kNamingKeys{"clip.shape", "isosurface.colorBy", "layers",
-                                                 "overlay.dataset"};
+constexpr std::array<const char*, 3> kNamingKeys{"clip.shape", "isosurface.colorBy", "layers"};
 constexpr const char* kGone = "#REF!";
 
 /// What takes the place of a name; nullopt: it stays as it was written.

@@ -37,7 +37,7 @@ struct ColourSource {
 struct LayerSource {
     Grid grid;
     glm::ivec3 levelDims{1};
-    ValueAt value;         ///< of categories that of the nearest sample
+    ValueAt value;
     GradientAt indexSlope; ///< by six taps
 };
 

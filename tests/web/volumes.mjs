@@ -57,3 +57,23 @@ export async function writeBalls(folder, count, n, spread = 0.2) {
     }
     return files;
 }
+
+/** Bytes of an uncompressed 8-bit grey TIFF of n x n pixels: a soft disc of brightness `peak`. */
+export function discTiff(n, peak) {
+    const entries = [[256, n], [257, n], [258, 8], [259, 1], [262, 1], [273, 8], [277, 1], [278, n], [279, n * n]];
+    const bytes = Buffer.alloc(8 + n * n + 2 + 12 * entries.length + 4);
+    bytes.write("II*\0", 0, "latin1");
+    bytes.writeUInt32LE(8 + n * n, 4);
+    for (let i = 0; i < n * n; ++i) {
+        const squared = (((i % n) / n - 0.5) ** 2 + (Math.floor(i / n) / n - 0.5) ** 2) / 0.3 ** 2;
+        bytes[8 + i] = Math.round(peak * Math.exp(-squared));
+    }
+    let at = bytes.writeUInt16LE(entries.length, 8 + n * n);
+    for (const [tag, value] of entries) {
+        at = bytes.writeUInt16LE(tag, at);
+        at = bytes.writeUInt16LE(4, at); // LONG
+        at = bytes.writeUInt32LE(1, at);
+        at = bytes.writeUInt32LE(value, at);
+    }
+    return bytes;
+}

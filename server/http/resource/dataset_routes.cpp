@@ -83,6 +83,19 @@ fs::path absolute(const ApiContext& context, const fs::path& file) {
     return file.is_absolute() || roots.empty() ? file : roots.front() / file;
 }
 
+/// `series`: false (a dataset per file), "stack" or "steps" (one dataset of all), true (one, guessed by its
+/// first).
+bool takeSeries(const nlohmann::json& body, nlohmann::json& options) {
+    const auto found = body.find("series");
+    if (found == body.end() || found->is_null() || *found == false) return false;
+    if (*found == "stack" || *found == "steps")
+        options["series"] = *found;
+    else if (*found != true)
+        throw InvalidInput("member 'series'", "it must be true, false, \"stack\" or \"steps\"")
+            .withField("series");
+    return true;
+}
+
 Response importFiles(const ApiContext& context, const Request& request) {
     const auto body = jsonBody(request);
     allowMembers(body, {"files", "name", "options", "series", "place", "cell"});
@@ -93,7 +106,7 @@ Response importFiles(const ApiContext& context, const Request& request) {
     if (body.contains("cell")) common.cell = sheet::parseAddress(requireString(body, "cell"));
     std::vector<engine::ImportRequest> requests;
     const auto files = filesOf(body);
-    const bool together = booleanOr(body, "series", false);
+    const bool together = takeSeries(body, common.options);
     for (const auto& file : files) {
         if (requests.empty() || !together) requests.push_back(common);
         requests.back().files.push_back(absolute(context, file));
@@ -148,7 +161,9 @@ void addImportRoutes(Router& router, const ApiContext& context) {
          .pattern = "/api/v1/datasets",
          .handler = [&context](Request& request) { return importFiles(context, request); },
          .summary =
-             "Imports files below a root in the background; one dataset per file unless series is true",
+             "Imports files below a root in the background: a dataset per file, or one from all of them with "
+             "series \"stack\" (slices of a volume), \"steps\" (of time) or true (as the first file "
+             "suggests)",
          .bodyType = "application/json",
          .bodyDoc = "{files: [PATH], name?, options?, series?, place?, cell?}",
          .bodyBudgetBytes = std::uint64_t{1} << 20U,

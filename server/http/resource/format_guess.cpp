@@ -3,6 +3,7 @@
 #include "http/net/unique_fd.h"
 
 #include <algorithm>
+#include <bzlib.h>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
@@ -17,11 +18,14 @@ namespace {
 
 constexpr std::size_t kHeadBytes = std::size_t{16} << 10U;
 
-std::string readHead(const std::filesystem::path& file) {
+/// bzip2 gives nothing out before a whole block of up to 900 kB has come in.
+constexpr std::size_t kBzip2BlockBytes = 1'000'000;
+
+std::string readHead(const std::filesystem::path& file, std::size_t bytes) {
     // Not blocking: the name may belong to a pipe by now.
     const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!fd.valid()) return {};
-    std::string head(kHeadBytes, '\0');
+    std::string head(bytes, '\0');
     const auto count = ::pread(fd.get(), head.data(), head.size(), 0);
     head.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
     return head;
@@ -43,6 +47,28 @@ std::string unpackedHead(std::string head) {
     out.resize(out.size() - stream.avail_out);
     inflateEnd(&stream);
     return out;
+}
+
+/// The same for bzip2.
+std::string unpackedBzip2Head(std::string head) {
+    bz_stream stream{};
+    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return {};
+    std::string out(kHeadBytes, '\0');
+    stream.next_in = head.data();
+    stream.avail_in = static_cast<unsigned>(head.size());
+    stream.next_out = out.data();
+    stream.avail_out = static_cast<unsigned>(out.size());
+    while (stream.avail_in > 0 && stream.avail_out > 0 && BZ2_bzDecompress(&stream) == BZ_OK) {
+    }
+    out.resize(out.size() - stream.avail_out);
+    BZ2_bzDecompressEnd(&stream);
+    return out;
+}
+
+std::string contentsHead(const std::filesystem::path& file) {
+    auto head = readHead(file, kHeadBytes);
+    if (head.starts_with("BZh")) return unpackedBzip2Head(readHead(file, kBzip2BlockBytes));
+    return unpackedHead(std::move(head));
 }
 
 bool isNifti(std::string_view head) {
@@ -157,7 +183,7 @@ std::optional<std::string> meshFormat(const std::filesystem::path& file, std::st
 } // namespace
 
 std::optional<std::string> guessFormat(const std::filesystem::path& file) {
-    const auto head = unpackedHead(readHead(file));
+    const auto head = contentsHead(file);
     const std::string_view text = head;
     if (text.starts_with("NRRD00")) return "nrrd";
     if (isNifti(text)) return "nifti";

@@ -13,8 +13,8 @@ bool isSlice(const SeriesPart& part) {
     return part.header.meta.grid.dims.z == 1 && part.header.meta.stepCount() == 1;
 }
 
-bool areSlices(const std::vector<SeriesPart>& parts) {
-    return std::all_of(parts.begin(), parts.end(), isSlice);
+bool isStack(const std::vector<SeriesPart>& parts, std::optional<SeriesKind> kind) {
+    return kind ? *kind == SeriesKind::Stack : std::all_of(parts.begin(), parts.end(), isSlice);
 }
 
 std::string fileOf(const SeriesPart& part) { return part.header.files.front().string(); }
@@ -65,7 +65,13 @@ glm::dvec3 originOf(const SeriesPart& part) { return part.header.meta.grid.world
 
 void stackSlices(const std::vector<SeriesPart>& parts, DatasetMeta& meta) {
     const auto count = parts.size();
-    meta.grid.dims.z = static_cast<int>(count);
+    const int thickness = meta.grid.dims.z;
+    const auto slices = static_cast<std::int64_t>(count) * thickness;
+    if (slices > INT32_MAX) throw LimitExceeded(fileOf(parts.front()), "the stack has too many slices");
+    for (const auto& part : parts)
+        if (part.header.meta.stepCount() != 1)
+            refuse(part, "it has several time steps, so it is no slice of a stack");
+    meta.grid.dims.z = static_cast<int>(slices);
     if (count == 1) return;
     const auto first = originOf(parts.front());
     const auto step = (originOf(parts.back()) - first) / static_cast<double>(count - 1);
@@ -82,7 +88,11 @@ void stackSlices(const std::vector<SeriesPart>& parts, DatasetMeta& meta) {
     for (std::size_t i = 0; i < count; ++i)
         if (glm::length(originOf(parts[i]) - first - static_cast<double>(i) * step) > 1e-2 * length)
             refuse(parts[i], "its slice is not as far from the one before as the others of the series are");
-    meta.grid.worldFromIndex[2] = glm::dvec4(step, 0.0);
+    const auto along = step / static_cast<double>(thickness);
+    const glm::dvec3 own = meta.grid.worldFromIndex[2];
+    if (thickness > 1 && glm::length(own - along) > 1e-2 * glm::length(own))
+        refuse(parts[1], "its slab does not begin where the one before ends");
+    meta.grid.worldFromIndex[2] = glm::dvec4(along, 0.0);
 }
 
 void appendSteps(const std::vector<SeriesPart>& parts, DatasetMeta& meta) {
@@ -123,9 +133,10 @@ private:
 
 } // namespace
 
-SourceHeader combinedHeader(const std::vector<SeriesPart>& parts, const ImportLimits& limits) {
+SourceHeader combinedHeader(const std::vector<SeriesPart>& parts, const ImportLimits& limits,
+                            std::optional<SeriesKind> kind) {
     if (parts.empty()) throw InternalError("file series", "it is empty");
-    const bool slices = areSlices(parts);
+    const bool slices = isStack(parts, kind);
     SourceHeader header;
     header.meta = parts.front().header.meta;
     for (const auto& part : parts) {
@@ -148,8 +159,9 @@ SourceHeader combinedHeader(const std::vector<SeriesPart>& parts, const ImportLi
 }
 
 std::vector<std::string> readSeries(const std::vector<SeriesPart>& parts, const SourceHeader& header,
-                                    const ArraySink& sink, const ReadProgress& progress) {
-    const bool slices = areSlices(parts);
+                                    const ArraySink& sink, const ReadProgress& progress,
+                                    std::optional<SeriesKind> kind) {
+    const bool slices = isStack(parts, kind);
     SliceStack stack(slices ? header : SourceHeader{});
     int firstStep = 0;
     std::vector<std::string> notes;

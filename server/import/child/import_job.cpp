@@ -100,24 +100,26 @@ FilePreview previewOf(const SourceHeader& header) {
 /// The header of one file, or of a series, and what reads it.
 struct OpenedFiles {
     std::vector<SeriesPart> parts;
+    std::optional<SeriesKind> kind;
     SourceHeader header;
 
     [[nodiscard]] std::vector<std::string> read(const ArraySink& sink, const ReadProgress& progress) const {
         return parts.size() == 1 ? parts.front().reader->readData(header, sink, progress)
-                                 : readSeries(parts, header, sink, progress);
+                                 : readSeries(parts, header, sink, progress, kind);
     }
 };
 
 OpenedFiles openFiles(const ReaderRegistry& readers, const ImportJob& job) {
     OpenedFiles opened;
+    opened.kind = job.options.series;
     for (const auto& file : job.files) {
         const auto& reader = readers.choose(file, job.options);
         opened.parts.push_back({&reader, readHeader(reader, file, job.options, job.limits)});
     }
     ImportLimits limits;
     limits.maxBytes = job.limits.maxVoxelBytes;
-    opened.header =
-        opened.parts.size() == 1 ? opened.parts.front().header : combinedHeader(opened.parts, limits);
+    opened.header = opened.parts.size() == 1 ? opened.parts.front().header
+                                             : combinedHeader(opened.parts, limits, opened.kind);
     return opened;
 }
 

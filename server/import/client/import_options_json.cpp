@@ -75,6 +75,12 @@ bool bigEndian(const std::string& member, const json& j) {
     reject(member, "it must be \"little\" or \"big\"");
 }
 
+SeriesKind series(const std::string& member, const json& j) {
+    if (j == "stack") return SeriesKind::Stack;
+    if (j == "steps") return SeriesKind::Steps;
+    reject(member, "it must be \"stack\" or \"steps\"");
+}
+
 using Setter = std::function<void(ImportOptions&, const std::string&, const json&)>;
 
 const std::map<std::string, Setter>& setters() {
@@ -98,6 +104,7 @@ const std::map<std::string, Setter>& setters() {
         {"no_data", [](auto& o, auto& m, auto& j) { o.noDataValue = number(m, j); }},
         {"resolution",
          [](auto& o, auto& m, auto& j) { o.resolution = static_cast<int>(integer(m, j, 16, 256)); }},
+        {"series", [](auto& o, auto& m, auto& j) { o.series = series(m, j); }},
         {"divide_by_cell_volume", [](auto& o, auto& m, auto& j) { o.divideByCellVolume = boolean(m, j); }},
     };
     return table;
@@ -143,6 +150,7 @@ std::string canonicalOptions(const ImportOptions& o) {
     if (o.noDataValue) j["no_data"] = *o.noDataValue;
     if (o.resolution) j["resolution"] = *o.resolution;
     if (o.divideByCellVolume) j["divide_by_cell_volume"] = *o.divideByCellVolume;
+    if (o.series) j["series"] = *o.series == SeriesKind::Stack ? "stack" : "steps";
     return j.dump();
 }
 

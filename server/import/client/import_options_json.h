@@ -19,6 +19,7 @@ namespace voxsheet::import {
 ///   "no_data" number: becomes NaN
 ///   "resolution" 16 … 256: samples along the longest axis of the volume made from a surface (STL, PLY, OBJ)
 ///   "divide_by_cell_volume" boolean: CHGCAR family
+///   "series" "stack" | "steps": what several files make together
 /// Throws InvalidInput, with the member as field, for unknown members, wrong types and values out of range.
 [[nodiscard]] ImportOptions importOptionsFromJson(const nlohmann::json& json);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bzlib.h>
 #include <cstdlib>
 #include <fstream>
 #include <sys/stat.h>
@@ -99,6 +100,26 @@ TEST_F(FolderListingTest, FormatsByContent) {
     EXPECT_EQ(guessFormat(base_ / "root/h.bin"), "xsf");
     EXPECT_FALSE(guessFormat(base_ / "root/d.txt"));
     EXPECT_FALSE(guessFormat(base_ / "root/absent"));
+}
+
+TEST_F(FolderListingTest, FormatsAreGuessedInsideOfBzip2) {
+    const std::string text = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 100 100 100\nencoding: raw\n\n";
+    std::string plain = text;
+    std::uint32_t state = 1;
+    for (int i = 0; i < 2'000'000; ++i) // incompressible: the first block is as long as it can be
+        plain += static_cast<char>((state = state * 1664525U + 1013904223U) >> 24U);
+    std::string packed(plain.size() + plain.size() / 100 + 600, '\0');
+    auto size = static_cast<unsigned>(packed.size());
+    ASSERT_EQ(BZ2_bzBuffToBuffCompress(packed.data(), &size, plain.data(),
+                                       static_cast<unsigned>(plain.size()), 9, 0, 0),
+              BZ_OK);
+    packed.resize(size);
+    write("root/volume.nrrd.bz2", packed);
+    EXPECT_EQ(guessFormat(base_ / "root" / "volume.nrrd.bz2"), "nrrd");
+    write("root/damaged.bz2", packed.substr(0, 50'000));
+    write("root/liar.bz2", "BZh9 and nothing of the kind");
+    EXPECT_EQ(guessFormat(base_ / "root" / "damaged.bz2"), std::nullopt);
+    EXPECT_EQ(guessFormat(base_ / "root" / "liar.bz2"), std::nullopt);
 }
 
 } // namespace

@@ -7,7 +7,9 @@ export async function listDatasets(): Promise<Dataset[]> {
 }
 
 export interface ImportOptions {
-    series?: boolean;
+    /** One dataset from all files: slices of a volume, or steps of time. */
+    series?: "stack" | "steps";
+    name?: string;
 }
 
 export async function importFiles(files: string[], options: ImportOptions = {}): Promise<string[]> {

@@ -1,6 +1,7 @@
 // Bringing data in and taking it out.
-import { cancelImport, importFiles, removeDataset, uploadFile } from "../api/datasets";
+import { cancelImport, importFiles, removeDataset, uploadFile, type ImportOptions } from "../api/datasets";
 import { ApiProblem } from "../api/http";
+import type { OpenRequest } from "../model/file_choice";
 import type { AppStore } from "../state/app_state";
 import type { Notices } from "./notices";
 import type { ServerSync } from "./server_sync";
@@ -19,10 +20,17 @@ export class DatasetActions {
         private readonly notices: Notices,
     ) {}
 
-    async open(files: string[], series: boolean): Promise<boolean> {
-        const done = await this.notices.attempt(() => importFiles(files, series ? { series: true } : {}));
+    /** True when all of them were taken. */
+    async open(requests: readonly OpenRequest[]): Promise<boolean> {
+        let all = true;
+        for (const { files, series, name } of requests) {
+            const options: ImportOptions = {};
+            if (series) options.series = series;
+            if (name) options.name = this.freeName(name);
+            all = (await this.notices.attempt(() => importFiles(files, options))) !== null && all;
+        }
         await Promise.all([this.sync.datasets.request(), this.sync.book.request()]);
-        return done !== null;
+        return all;
     }
 
     /** One after the other: several at once would only share the same link. */

@@ -65,13 +65,11 @@ export const naturalOrder = new Intl.Collator(undefined, { numeric: true, sensit
 
 interface Probed {
     value: number | null;
-    label?: string | null;
     unit?: string;
     note?: string;
 }
 
-function probedText({ value, label, unit, note }: Probed): string {
-    if (label && value !== null) return label === String(value) ? label : `${label} (${formatNumber(value)})`;
+function probedText({ value, unit, note }: Probed): string {
     return value === null ? note || "no value" : withUnit(formatNumber(value), unit);
 }
 

@@ -1,155 +1,102 @@
 // Browses the folders that the server may open; a panel, so that the sheet stays in sight.
-import { ArrowLeft, ArrowUp, File as FileIcon, Files, Folder } from "lucide-preact";
-import { useEffect, useState } from "preact/hooks";
-import { listFiles, previewFile } from "../api/files";
+import { ArrowLeft, ArrowUp } from "lucide-preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { listFiles } from "../api/files";
 import { ApiProblem } from "../api/http";
-import type { FileEntry, FileListing, FilePreview } from "../api/types";
-import { formatBytes, formatDims, formatNumber, naturalOrder } from "../model/format";
+import type { FileListing, FilePreview } from "../api/types";
+import {
+    allChosen,
+    countFiles,
+    extendedTo,
+    fileRows,
+    nothingChosen,
+    openAsLabels,
+    openRequests,
+    suggestedAs,
+    toggled,
+    type Choice,
+    type FileRow,
+    type OpenAs,
+} from "../model/file_choice";
+import { naturalOrder } from "../model/format";
 import { useApp } from "./app_context";
+import { FileFacts } from "./FileFacts";
+import { FileLine } from "./FileLine";
 import { IconButton } from "./IconButton";
 
-function asText(value: unknown): string {
-    if (value === null || value === undefined) return "";
-    if (typeof value === "number") return formatNumber(value);
-    if (Array.isArray(value)) {
-        if (value.every((part) => typeof part === "number")) {
-            return value.every(Number.isInteger) ? formatDims(value as number[]) : value.map((part) => formatNumber(part as number)).join(" × ");
-        }
-        return value.map(asText).filter(Boolean).join(", ");
-    }
-    if (typeof value === "object") {
-        const named = (value as { name?: unknown }).name;
-        if (typeof named === "string") return named;
-        return Object.entries(value)
-            .filter(([, part]) => asText(part) !== "")
-            .map(([key, part]) => `${key} ${asText(part)}`)
-            .join(", ");
-    }
-    return String(value);
-}
-
-const previewKeys = ["format", "dims", "spacing", "type", "range", "fields", "steps", "units", "bytes"];
-
-function Preview({ path }: { path: string }) {
-    const [preview, setPreview] = useState<FilePreview | null>(null);
-    const [problem, setProblem] = useState("");
-    useEffect(() => {
-        setPreview(null);
-        setProblem("");
-        const abort = new AbortController();
-        previewFile(path, abort.signal).then(setPreview, (reason: unknown) => {
-            if (!abort.signal.aborted) setProblem(reason instanceof ApiProblem ? reason.message : "No preview.");
-        });
-        return () => abort.abort();
-    }, [path]);
-    if (problem) {
-        return (
-            <p class="dataset-error" role="alert">
-                {problem}
-            </p>
-        );
-    }
-    if (!preview) return <p class="hint">Reading the header …</p>;
-    return (
-        <dl class="facts" aria-label="Preview">
-            {previewKeys
-                .filter((key) => asText(preview[key]) !== "")
-                .map((key) => (
-                    <div key={key}>
-                        <dt>{key === "dims" ? "size" : key}</dt>
-                        <dd>{key === "bytes" ? formatBytes(preview[key] as number) : asText(preview[key])}</dd>
-                    </div>
-                ))}
-        </dl>
-    );
-}
-
-/** A numbered series arrives as one entry that names its files, beside the files themselves. */
-function filesOf(entry: FileEntry): string[] {
-    return entry.files?.length ? entry.files : [entry.path];
-}
-
-function keyOf(entry: FileEntry): string {
-    return entry.files?.length ? `series ${entry.path}` : entry.path;
-}
-
-function Entry({
-    entry,
-    checked,
-    onCheck,
-    onEnter,
-    onLook,
-}: {
-    entry: FileEntry;
-    checked: boolean;
-    onCheck: (checked: boolean) => void;
-    onEnter: () => void;
-    onLook: () => void;
-}) {
-    if (entry.kind === "folder") {
-        return (
-            <li>
-                <button type="button" class="file-entry" onClick={onEnter} title={entry.path}>
-                    <Folder size={14} aria-hidden="true" /> <span>{entry.name}</span>
-                </button>
-            </li>
-        );
-    }
-    const series = (entry.files?.length ?? 0) > 1;
-    return (
-        <li>
-            <label class="file-entry" title={entry.path} onPointerEnter={onLook} onFocusCapture={onLook}>
-                <input type="checkbox" checked={checked} onChange={(event) => onCheck(event.currentTarget.checked)} />
-                {series ? <Files size={14} aria-hidden="true" /> : <FileIcon size={14} aria-hidden="true" />}
-                <span>{series ? `${entry.name} (${entry.files!.length} files)` : entry.name}</span>
-                <small>{entry.format ?? ""}</small>
-                <small>{formatBytes(entry.bytes)}</small>
-            </label>
-        </li>
-    );
-}
-
-export function OpenPanel() {
-    const app = useApp();
+/** A folder's listing, folders first, names in natural order. */
+function useFolder() {
     const [listing, setListing] = useState<FileListing | null>(null);
     const [problem, setProblem] = useState("");
-    const [filter, setFilter] = useState("");
-    const [chosen, setChosen] = useState<ReadonlyMap<string, string[]>>(new Map());
-    const [looked, setLooked] = useState<string | null>(null);
-    const [series, setSeries] = useState(false);
-
     const browse = async (path: string): Promise<void> => {
         try {
             const next = await listFiles(path, "");
             // With one root there is nothing to choose.
             if (path === "" && next.entries.length === 1) return await browse(next.entries[0]!.path);
+            next.entries.sort((a, b) => (a.kind === b.kind ? naturalOrder(a.name, b.name) : a.kind === "folder" ? -1 : 1));
             setListing(next);
             setProblem("");
-            setLooked(null);
         } catch (reason) {
             if (!(reason instanceof ApiProblem)) throw reason;
             setProblem(reason.message);
         }
     };
     useEffect(() => void browse(""), []);
+    return { listing, problem, browse };
+}
 
+export function OpenPanel() {
+    const app = useApp();
+    const { listing, problem, browse } = useFolder();
+    const [filter, setFilter] = useState("");
+    const [expanded, setExpanded] = useState<ReadonlySet<string>>(new Set());
+    const [choice, setChoice] = useState<Choice>(nothingChosen);
+    const [looked, setLooked] = useState<FileRow | null>(null);
+    const [suggested, setSuggested] = useState<ReadonlyMap<string, OpenAs>>(new Map());
+    const [asked, setAsked] = useState<OpenAs | null>(null);
+    const list = useRef<HTMLUListElement>(null);
+
+    const rows = fileRows(listing?.entries ?? [], expanded, filter);
+    const groups = openRequests(rows, choice, "stack").filter((group) => group.files.length > 1);
+    // A series says by its first file what it is; loose files are compared unless asked otherwise.
+    const guess = groups.every((group) => group.name !== undefined) && groups[0] ? suggested.get(groups[0].files[0]!) : undefined;
+    const as = asked ?? guess ?? "each";
+    const requests = openRequests(rows, choice, as);
+    const count = countFiles(requests);
+
+    const enter = (path: string): void => {
+        setChoice(nothingChosen);
+        setLooked(null);
+        void browse(path);
+    };
     const close = (): void => app.store.dispatch({ type: "page/leftPanel", panel: "datasets" });
-    const check = (entry: FileEntry, checked: boolean): void => {
-        const next = new Map(chosen);
-        if (checked) next.set(keyOf(entry), filesOf(entry));
-        else next.delete(keyOf(entry));
-        setChosen(next);
+    const open = async (wanted = requests): Promise<void> => {
+        if (await app.datasets.open(wanted)) close();
     };
-    const open = async (): Promise<void> => {
-        const files = [...new Set([...chosen.values()].flat())];
-        if (await app.datasets.open(files, series)) close();
+    const learn = (path: string, facts: FilePreview): void => setSuggested((known) => new Map(known).set(path, suggestedAs(facts.dims)));
+    const expand = (path: string): void => {
+        const next = new Set(expanded);
+        if (!next.delete(path)) next.add(path);
+        setExpanded(next);
     };
 
-    const wanted = filter.trim().toLowerCase();
-    const entries = (listing?.entries ?? [])
-        .filter((entry) => entry.name.toLowerCase().includes(wanted))
-        .sort((a, b) => (a.kind === b.kind ? naturalOrder(a.name, b.name) : a.kind === "folder" ? -1 : 1));
-    const count = new Set([...chosen.values()].flat()).size;
+    const keyDown = (event: KeyboardEvent): void => {
+        const at = rows.findIndex((row) => row.key === (event.target as HTMLElement).dataset.row);
+        if (at < 0) return;
+        const row = rows[at]!;
+        const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+        if (step) {
+            const next = rows[at + step];
+            if (!next) return event.preventDefault();
+            if (event.shiftKey) setChoice(extendedTo(choice.anchor === null ? { ...choice, anchor: row.key } : choice, rows, next.key));
+            list.current?.querySelectorAll<HTMLElement>("[data-row]")[at + step]?.focus();
+        } else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "a") setChoice(allChosen(rows));
+        else if (event.key === "Enter" && row.files.length > 0) {
+            void open(count > 0 ? requests : openRequests(rows, toggled(nothingChosen, row.key), as));
+        } else return;
+        event.preventDefault();
+        event.stopPropagation();
+    };
 
     return (
         <>
@@ -158,12 +105,7 @@ export function OpenPanel() {
                 <h2>Open from the server</h2>
             </div>
             <div class="path-row">
-                <IconButton
-                    icon={ArrowUp}
-                    label="Folder above"
-                    disabled={!listing || listing.path === ""}
-                    onClick={() => void browse(listing?.parent ?? "")}
-                />
+                <IconButton icon={ArrowUp} label="Folder above" disabled={!listing || listing.path === ""} onClick={() => enter(listing?.parent ?? "")} />
                 <span class="path" title={listing?.path}>
                     {listing?.path || "folders"}
                 </span>
@@ -181,25 +123,32 @@ export function OpenPanel() {
                     {problem}
                 </p>
             )}
-            <ul class="file-list" aria-label="Files">
-                {entries.map((entry) => (
-                    <Entry
-                        key={keyOf(entry)}
-                        entry={entry}
-                        checked={chosen.has(keyOf(entry))}
-                        onCheck={(checked) => check(entry, checked)}
-                        onEnter={() => void browse(entry.path)}
-                        onLook={() => setLooked(filesOf(entry)[0]!)}
+            <ul class="file-list" aria-label="Files" ref={list} onKeyDown={keyDown}>
+                {rows.map((row) => (
+                    <FileLine
+                        key={row.key}
+                        row={row}
+                        checked={choice.chosen.has(row.key)}
+                        expanded={expanded.has(row.entry.path)}
+                        onChoose={(extend) => setChoice(extend ? extendedTo(choice, rows, row.key) : toggled(choice, row.key))}
+                        onEnter={() => enter(row.entry.path)}
+                        onExpand={() => expand(row.entry.path)}
+                        onLook={() => setLooked(row)}
                     />
                 ))}
-                {listing && entries.length === 0 && <li class="hint">Nothing here that matches.</li>}
+                {listing && rows.length === 0 && <li class="hint">Nothing here that matches.</li>}
             </ul>
-            {looked && <Preview path={looked} />}
+            {looked && <FileFacts path={looked.files[0]!} count={looked.files.length} onFacts={learn} />}
             <div class="panel-foot">
-                <label class="check" title="One dataset with a step per file, instead of a dataset per file">
-                    <input type="checkbox" checked={series} disabled={count < 2} onChange={(event) => setSeries(event.currentTarget.checked)} />
-                    as one series
-                </label>
+                {groups.length > 0 && (
+                    <select aria-label="Open several files as" value={as} onChange={(event) => setAsked(event.currentTarget.value as OpenAs)}>
+                        {Object.entries(openAsLabels).map(([value, label]) => (
+                            <option key={value} value={value}>
+                                {label}
+                            </option>
+                        ))}
+                    </select>
+                )}
                 <button type="button" class="button primary" disabled={count === 0} onClick={() => void open()}>
                     open {count > 0 ? `${count} file${count > 1 ? "s" : ""}` : ""}
                 </button>
