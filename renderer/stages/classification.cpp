@@ -60,12 +60,13 @@ ClassificationStage::ClassificationStage(gpu::Context& context)
     : context_(context), textures_(kCachedTables) {}
 
 gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, const ResidentVolume& volume,
-                                                bool filterFloats) {
+                                                bool filterFloats, bool categories) {
     const auto format = volume.texture->internalFormat();
     const bool isFloat = format == GL_R32F || format == GL_R16F;
+    const char* filter = categories ? "2" : filterFloats && format == GL_R32F ? "1" : "0";
     return {{"VALUE_SCALE", std::to_string(static_cast<int>(table.scale))},
             {"MAY_BE_NAN", isFloat ? "1" : "0"},
-            {"SHADER_FILTER", filterFloats && format == GL_R32F ? "1" : "0"}};
+            {"SHADER_FILTER", filter}};
 }
 
 void ClassificationStage::bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit) {

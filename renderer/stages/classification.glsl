@@ -1,7 +1,7 @@
 // From a texel of the volume to colour and opacity, through a float table (stages/classification.h).
 //   VALUE_SCALE   0 linear, 1 logarithmic, 2 linear about 0 and logarithmic beyond
 //   MAY_BE_NAN    1 when the volume can hold NaN
-//   SHADER_FILTER 1: the shader interpolates between samples itself
+//   SHADER_FILTER 1: the shader interpolates between samples itself; 2: the nearest sample, of categories
 #include "stages/filtering.glsl"
 #include "stages/value_scale.glsl"
 
@@ -17,7 +17,9 @@ uniform vec3 filterPeriodic; // 1 on axes that wrap
 // By interpolation between samples in full precision, whatever the driver's filter does.
 float interpolatedTexel(vec3 position) { return filteredTexel(volume, position, filterPeriodic); }
 
-#if SHADER_FILTER
+#if SHADER_FILTER == 2
+float texelAt(vec3 position) { return nearestTexel(volume, position, filterPeriodic); }
+#elif SHADER_FILTER
 float texelAt(vec3 position) { return interpolatedTexel(position); }
 #else
 float texelAt(vec3 position) { return textureLod(volume, position, 0.0).r; }

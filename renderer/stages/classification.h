@@ -37,8 +37,9 @@ public:
 
     /// The defines that a program with this table and volume needs.
     /// \param filterFloats  the shader interpolates 32-bit floats itself
+    /// \param categories    the shader takes the nearest sample
     [[nodiscard]] static gpu::ShaderDefines defines(const TransferTable& table, const ResidentVolume& volume,
-                                                    bool filterFloats);
+                                                    bool filterFloats, bool categories);
     /// Binds volume and table and sets the uniforms.
     void bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
               const ResidentVolume& volume);

@@ -1,10 +1,18 @@
-// Trilinear interpolation by the shader itself, for drivers that do not filter 32-bit float textures.
+// Samples by the shader itself: trilinear, for drivers that do not filter 32-bit float textures, or the nearest one.
 
 // Index of a sample beyond the ends: wrapped on periodic axes, else the nearest.
 ivec3 sampleInside(ivec3 index, ivec3 size, vec3 periodic) {
     // The half keeps a division that is a little off away from whole numbers.
     ivec3 wrapped = index - size * ivec3(floor((vec3(index) + 0.5) / vec3(size)));
     return ivec3(mix(vec3(clamp(index, ivec3(0), size - 1)), vec3(wrapped), periodic));
+}
+
+// Of the voxel that holds the position. A point half-way between two samples must not fall to either by rounding, or the
+// picture speckles.
+float nearestTexel(sampler3D samples, vec3 position, vec3 periodic) {
+    const float towardsHigher = 1.0 / 1024.0;
+    ivec3 size = textureSize(samples, 0);
+    return texelFetch(samples, sampleInside(ivec3(floor(position * vec3(size) + towardsHigher)), size, periodic), 0).r;
 }
 
 float filteredTexel(sampler3D samples, vec3 position, vec3 periodic) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace voxsheet {
@@ -58,7 +59,18 @@ void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, 
     set("mappedFromTexel", glm::vec2(mapping.mappedFromTexel));
     set("entryFromMapped", glm::vec2(mapping.entryFromMapped));
     set("lastEntry", static_cast<float>(layer.transfer->entries.size() + 1));
-    set("density", static_cast<float>(layer.weight * tile.unitLengthWorld / layer.unitLengthWorld));
+    const bool flat = tile.technique == Technique::Plane;
+    const double lengths = flat ? 1.0 : tile.unitLengthWorld / layer.unitLengthWorld;
+    set("density", static_cast<float>(layer.weight * lengths));
+    if (flat) {
+        constexpr double all = -std::numeric_limits<float>::max();
+        // What integers become in the shader is a little off: the threshold itself must still pass.
+        const bool exact = resident.texture->internalFormat() == GL_R32F;
+        const double rounding =
+            exact ? 0.0 : 1e-6 * (std::abs(resident.valueScale) + std::abs(resident.valueOffset));
+        set("valueFromTexel", glm::vec2(resident.valueScale, resident.valueOffset));
+        set("threshold", static_cast<float>(std::max(layer.threshold - rounding, all)));
+    }
     if (tile.shading.enabled)
         set("viewFromGradient",
             viewFromGradient(viewFromVoxels(tile.camera.viewFromWorld, grid, resident.dims)));
@@ -69,9 +81,9 @@ void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, 
 void validateLayers(const TileSpec& tile) {
     const auto& layers = tile.layers;
     if (layers.volumes.empty()) return;
-    if (tile.technique != Technique::Raycast)
-        throw InvalidInput("layers", "only ray casting blends several volumes",
-                           "set technique to raycast, or layers to none")
+    if (tile.technique != Technique::Raycast && tile.technique != Technique::Plane)
+        throw InvalidInput("layers", "only ray casting and planes show several volumes",
+                           "set technique to raycast or plane, or layers to none")
             .withField("layers");
     if (layers.volumes.size() > kMaxLayers)
         throw InvalidInput("layers", "there are more than " + std::to_string(kMaxLayers)).withField("layers");
@@ -82,6 +94,8 @@ void validateLayers(const TileSpec& tile) {
     for (const auto& layer : all) {
         if (!layer.transfer || layer.transfer->entries.size() < 2)
             throw InvalidInput("transfer function of a layer", "there is none").withField("layers");
+        if (std::isnan(layer.threshold))
+            throw InvalidInput("threshold of a layer", "it is no number").withField("overlay.threshold");
         if (!(layer.unitLengthWorld > 0.0 && std::isfinite(layer.unitLengthWorld)))
             throw InvalidInput("unit length of a layer's opacity", "it is not above 0").withField("layers");
     }
@@ -93,9 +107,10 @@ gpu::ShaderDefines LayerStage::defines(const TileSpec& tile, std::span<const Res
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const auto number = std::to_string(i);
         const bool filter = filterFloats && layers[i]->texture->internalFormat() == GL_R32F;
+        const bool categories = tile.layers.volumes[i].categories;
         const auto scale = static_cast<int>(tile.layers.volumes[i].transfer->scale);
         defines.emplace_back("LAYER_SCALE_" + number, std::to_string(scale));
-        defines.emplace_back("LAYER_FILTER_" + number, filter ? "1" : "0");
+        defines.emplace_back("LAYER_FILTER_" + number, categories ? "2" : filter ? "1" : "0");
     }
     return defines;
 }

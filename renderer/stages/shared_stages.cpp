@@ -10,7 +10,8 @@ SharedStages::SharedStages(gpu::Context& gpuContext)
 
 gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
     const auto& [tile, volumes, frame, target, rows] = request;
-    auto defines = ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader);
+    auto defines =
+        ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader, tile.categories);
     for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
                              ShadingStage::defines(tile.shading, volumes.gradients)})
         defines.insert(defines.end(), more.begin(), more.end());

@@ -48,10 +48,13 @@ struct TileSpec {
     ClipSpec clip;                                ///< not for Plane
     ShadingSpec shading;                          ///< of volumes not for Mip and Plane
     IsosurfaceSpec isosurface;                    ///< Isosurface only
-    LayersSpec layers;                            ///< Raycast only
+    LayersSpec layers;                            ///< Raycast and Plane only
     CrystalSpec crystal;                          ///< of the cell's own dataset
     PlaneSpec plane;                              ///< Plane only, which needs an orthographic camera
     FloatTexels floatTexels = FloatTexels::Full;
+    /// The values are numbers of categories: nothing lies between two of them, so every technique takes the
+    /// nearest sample, and a plane is clear where the table is. Not for Mip and Isosurface, and never lit.
+    bool categories = false;
 };
 
 } // namespace voxsheet

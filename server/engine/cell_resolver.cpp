@@ -4,6 +4,7 @@
 #include "engine/axis_ticks.h"
 #include "engine/clip_resolver.h"
 #include "engine/crystal_resolver.h"
+#include "engine/lattice_planes.h"
 #include "engine/plane_resolver.h"
 #include "engine/shading_resolver.h"
 #include "sheet/camera.h"
@@ -305,16 +306,16 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     const Grid drawn = drawnGrid(meta.grid, spec.periodic);
     const bool flat = style.technique == sheet::Technique::Plane;
     const CameraFrame frame = linked.value_or(ownFrame(drawn));
-    spec.camera =
-        flat ? resolvePlaneCamera(style.plane, style.camera, drawn, meta.anatomical, sizePixels, frame)
-             : resolveCamera(style.camera, frame, sizePixels);
+    const sheet::PlaneStyle plane = flat ? withLatticeNormal(style.plane, meta) : style.plane;
+    spec.camera = flat ? resolvePlaneCamera(plane, style.camera, drawn, meta.anatomical, sizePixels, frame)
+                       : resolveCamera(style.camera, frame, sizePixels);
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
     spec.background = glm::vec4(opaqueOf(style.background));
     spec.sizePixels = sizePixels;
     if (flat)
-        spec.plane = resolvePlane(style.plane, drawn);
+        spec.plane = resolvePlane(plane, drawn);
     else
         spec.clip.planes = resolveClipPlanes(style.clip, drawn);
     spec.shading = resolveShading(style, spec.camera);

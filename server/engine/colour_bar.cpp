@@ -94,6 +94,22 @@ std::optional<double> barPosition(const TransferFunction& function, double value
     return position;
 }
 
+namespace {
+
+/// Null: no label map.
+json labelsJson(const std::optional<LabelTable>& table) {
+    if (!table) return nullptr;
+    json labels = json::array();
+    for (const Label& label : table->labels)
+        labels.push_back({{"value", label.value},
+                          {"name", label.name},
+                          {"colour", {label.rgb.x, label.rgb.y, label.rgb.z}},
+                          {"hidden", label.hidden}});
+    return labels;
+}
+
+} // namespace
+
 nlohmann::json describeColourBar(const CellLook& look) {
     json bar = barJson(look.transfer, fieldOf(*look.meta, look.shown));
     json opacity = json::array();
@@ -106,11 +122,13 @@ nlohmann::json describeColourBar(const CellLook& look) {
     bar["colouredBy"] = nullptr;
     if (const auto& by = look.colouredBy)
         bar["colouredBy"] = barJson(by->transfer, fieldOf(*by->meta, by->shown));
+    bar["labels"] = labelsJson(look.labels);
     bar["layers"] = json::array();
     for (const LayerLook& layer : look.layers) {
         json each = barJson(layer.transfer, fieldOf(*layer.meta, layer.shown));
         each["name"] = layer.name;
         each["weight"] = layer.weight;
+        each["labels"] = labelsJson(layer.labels);
         bar["layers"].push_back(std::move(each));
     }
     return bar;

@@ -27,7 +27,8 @@ inline constexpr int kColourBarStops = 64;
 /// below and above are colours [r, g, b, a] of samples without a value (null: there are none) and of values
 /// outside the range (null: as at its ends); colouredBy is null, or of the volume that colours the surfaces
 /// the bar that explains them, with stops, low, high, scale, unit, quantity, field, map, ticks; layers are
-/// such bars of the volumes blended into the picture, each with name and weight.
+/// such bars of the volumes blended into the picture or painted over it, each with name, weight and labels;
+/// labels are null, or of a label map the legend [{value, name, colour: [r, g, b], hidden}...].
 [[nodiscard]] nlohmann::json describeColourBar(const CellLook& look);
 
 } // namespace voxsheet::engine

@@ -14,7 +14,8 @@ namespace {
 glm::vec4 opaque(const glm::dvec4& colour) { return {glm::vec3(colour), 1.0F}; }
 
 std::string fusedText(const CellLook& look) {
-    std::string text = "fused with";
+    const bool flat = look.resolved.style.technique == sheet::Technique::Plane;
+    std::string text = flat ? "overlay" : "fused with";
     for (std::size_t i = 0; i < look.layers.size(); ++i)
         text += (i == 0 ? " " : ", ") + look.layers[i].name;
     return text;
@@ -37,6 +38,12 @@ public:
 
     void paint() {
         if (!fits_) return;
+        if (look_.labels) {
+            drawLegend(*look_.labels, bar_.low.y);
+            if (!look_.layers.empty())
+                label({bar_.high.x, bar_.low.y - font_}, fusedText(look_), colours_.text);
+            return;
+        }
         drawColours();
         drawTicks();
         drawEnds();
@@ -62,6 +69,23 @@ private:
         for (const glm::ivec2 aside : {glm::ivec2(-1, 0), {1, 0}, {0, -1}, {0, 1}})
             canvas_.text(at + aside, TextAlign::Right, text, font_, outline, maxWidth_);
         canvas_.text(at, TextAlign::Right, text, font_, colour, maxWidth_);
+    }
+
+    /// The labels that are shown, one below the other, as many as fit.
+    void drawLegend(const LabelTable& table, int top) {
+        const int row = font_ * 5 / 4;
+        int y = top;
+        for (const Label& each : table.labels) {
+            if (each.hidden) continue;
+            if (y + 2 * row > bar_.high.y) {
+                label({bar_.high.x, y + row / 2}, "…", colours_.quiet);
+                return;
+            }
+            canvas_.fill({{bar_.low.x - 1, y - 1}, {bar_.high.x + 1, y + width() + 1}}, colours_.background);
+            canvas_.fill({{bar_.low.x, y}, {bar_.high.x, y + width()}}, {glm::vec3(each.rgb), 1.0F});
+            label({bar_.low.x - font_ / 2, y + width() / 2}, each.name, colours_.text);
+            y += row;
+        }
     }
 
     void drawColours() {

@@ -61,8 +61,7 @@ void addGeometry(json& result, const Grid& grid) {
 }
 
 void addCrystal(json& result, const Crystal& crystal) {
-    result["lattice"] = json::array(
-        {vectorJson(crystal.lattice[0]), vectorJson(crystal.lattice[1]), vectorJson(crystal.lattice[2])});
+    result["lattice"] = describeLattice(crystal.lattice);
     json atoms = json::array();
     for (const auto& atom : crystal.atoms)
         atoms.push_back({{"element", elementOf(atom.atomicNumber).symbol},
@@ -105,6 +104,10 @@ json describeBox(const Grid& grid) {
             {"edges", edges},
             {"voxels", vectorJson(box.high - box.low)},
             {"firstSample", vectorJson(glm::dvec3(0.0) - box.low)}};
+}
+
+json describeLattice(const glm::dmat3& lattice) {
+    return json::array({vectorJson(lattice[0]), vectorJson(lattice[1]), vectorJson(lattice[2])});
 }
 
 json describeFrame(const CameraFrame& frame) {

@@ -21,6 +21,9 @@ namespace voxsheet::engine {
 /// sits.
 [[nodiscard]] nlohmann::json describeBox(const Grid& grid);
 
+/// Rows a, b, c in world units.
+[[nodiscard]] nlohmann::json describeLattice(const glm::dmat3& lattice);
+
 /// {centre, radius, size}: what camera.target and camera.distance are measured from and in, world units; size
 /// of the upright box that planes show, null where it is the cell's own.
 [[nodiscard]] nlohmann::json describeFrame(const CameraFrame& frame);

@@ -136,6 +136,7 @@ struct LayerValue {
     std::string name;            ///< as the style names it: "B1", "run 2"
     std::optional<double> value; ///< as ProbeValue
     std::optional<double> interpolated;
+    std::string label; ///< of a label map: what the value is called
     std::string unit;
     std::string note;
 };
@@ -147,6 +148,7 @@ struct ProbeValue {
     std::optional<double> interpolated; ///< trilinear at the point itself, as drawn
     glm::dvec3 world{0.0};
     glm::ivec3 index{0}; ///< nearest sample
+    std::string label;   ///< of a label map: what the value is called
     std::string unit;
     std::string note;
     /// Of the cell whose picture was probed: what lies under the pixel. "isosurface", "face" (of the box, a
@@ -154,7 +156,8 @@ struct ProbeValue {
     /// of the box). Empty for other cells and for points of the world.
     std::string hit;
     std::optional<double> isovalue; ///< of the surface, when an isosurface was hit
-    std::vector<LayerValue> layers; ///< of the fused view, in the order of the style's `layers`
+    std::vector<LayerValue>
+        layers; ///< of the fused view, in the order of the style's `layers`, or the overlay
 };
 
 struct SheetImageRequest {

@@ -28,6 +28,7 @@ glm::dvec3 normalOf(const sheet::PlaneStyle& plane) {
     case sheet::PlaneAxis::Sagittal:
         return kX;
     case sheet::PlaneAxis::Custom:
+    case sheet::PlaneAxis::Hkl:
         break;
     }
     return unitVector(plane.normal);
@@ -52,6 +53,7 @@ PlaneView planeView(const sheet::PlaneStyle& plane, bool anatomical) {
     case sheet::PlaneAxis::Sagittal:
         return viewOf(anatomical ? -kY : kY, kZ);
     case sheet::PlaneAxis::Custom:
+    case sheet::PlaneAxis::Hkl:
         break;
     }
     return customView(normalOf(plane));

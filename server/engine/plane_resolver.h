@@ -26,6 +26,8 @@ struct PlaneView {
 /// Anatomical pictures are in the radiological convention: the patient's right is on the picture's left.
 [[nodiscard]] PlaneView planeView(const sheet::PlaneStyle& plane, bool anatomical);
 
+/// Hkl planes come as custom ones (withLatticeNormal).
+///
 /// The grids below are the drawn ones (volume/periodic_window.h).
 
 /// The normal is that of the table above, whichever side the eye is on: position rises along it.

@@ -41,7 +41,15 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
             } else {
                 probe.note = "outside";
             }
-            if (style.technique == sheet::Technique::Raycast && !style.layers.volumes.empty())
+            if (style.labels.show && probe.value) {
+                const FieldMeta& field = content.meta->fields[static_cast<std::size_t>(shown.field)];
+                probe.label =
+                    makeLabelTable(style.labels, field, shown.step, 1.0, "labels.show").nameOf(*probe.value);
+                probe.interpolated = probe.value;
+            }
+            const bool fused = style.technique == sheet::Technique::Raycast && !style.layers.volumes.empty();
+            const bool overlaid = style.technique == sheet::Technique::Plane && !style.overlay.volume.empty();
+            if (fused || overlaid)
                 for (const LayerLook& layer : layersOf(address))
                     probe.layers.push_back(layerAt(layer, world));
         } catch (const Error& error) {
@@ -66,6 +74,10 @@ LayerValue ProbeService::layerAt(const LayerLook& layer, const glm::dvec3& world
     value.value = sample->value;
     value.interpolated = sample->interpolated;
     if (!sample->value) value.note = "no value here";
+    if (sample->value && layer.labels) {
+        value.label = layer.labels->nameOf(*sample->value);
+        value.interpolated = sample->value;
+    }
     return value;
 }
 

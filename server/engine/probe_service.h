@@ -24,7 +24,7 @@ public:
     using LayersOf = std::function<std::vector<LayerLook>(const sheet::Address&)>;
 
     /// One value per cell of the sheet that has a source, in reading order.
-    /// \param layersOf  asked for cells whose style names layers
+    /// \param layersOf  asked for cells whose style names layers or an overlay
     [[nodiscard]] std::vector<ProbeValue> atWorld(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                                   const View& view, const CellContents& contents,
                                                   const glm::dvec3& world, const LayersOf& layersOf) const;

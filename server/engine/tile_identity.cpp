@@ -158,6 +158,8 @@ void addLayers(Collector& collector, const LayersSpec& layers) {
         collector.add(layer.unitLengthWorld);
         collector.add(layer.weight);
         collector.add(static_cast<double>(layer.floatTexels));
+        collector.add(layer.categories ? 1.0 : 0.0);
+        collector.add(layer.threshold);
         addTable(collector, *layer.transfer, TableUse::ColoursAndOpacities);
     }
 }
@@ -188,8 +190,10 @@ void addColours(Collector& collector, const TileSpec& tile) {
         addIsosurface(collector, tile.isosurface);
         break;
     case Technique::Plane:
-        addTable(collector, *tile.transfer, TableUse::Colours);
+        addTable(collector, *tile.transfer,
+                 tile.categories ? TableUse::ColoursAndOpacities : TableUse::Colours);
         addPlane(collector, tile.plane);
+        addLayers(collector, tile.layers);
         break;
     }
 }
@@ -214,6 +218,7 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
     }
     addCrystal(collector, tile.crystal);
     addShading(collector, tile);
+    collector.add(tile.categories ? 1.0 : 0.0);
     collector.add(static_cast<double>(tile.floatTexels));
     collector.add(tile.background);
     collector.add(tile.sizePixels.x);

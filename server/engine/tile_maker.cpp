@@ -18,7 +18,7 @@ void addNote(std::string& notes, const std::string& note) {
 
 /// What a cell shows for a style that cannot be drawn.
 const char* codeOf(const InvalidInput& error) {
-    for (const char* naming : {"field", "clip.shape", "isosurface.colorBy", "layers"}) {
+    for (const char* naming : {"field", "clip.shape", "isosurface.colorBy", "layers", "overlay.dataset"}) {
         if (error.field() == naming) return "#REF!";
     }
     return "#TYPE!";
@@ -50,6 +50,7 @@ CellLook TileMaker::look(const sheet::Workbook& workbook, std::size_t sheetIndex
     findClipObject(look, from);
     findColours(look, from);
     findLayers(look, from, contents);
+    findOverlay(look, from, contents);
     return look;
 }
 
@@ -71,6 +72,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
                                           : cache_.summary(*look.meta, look.shown.field, look.shown.step);
     look.transfer = resolveTransfer(look.resolved, maps_, *summary, path);
+    if (style.labels.show) addLabels(look);
     if (style.technique == sheet::Technique::Isosurface) {
         sheet::IsosurfaceStyle surfaces = style.isosurface;
         // Where distances are 0 is the surface that they were taken from.
@@ -85,6 +87,16 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     addNote(look.note, missingCrystalNote(style.crystal, *look.meta));
     addNote(look.note, periodsNote);
     return look;
+}
+
+void TileMaker::addLabels(CellLook& look) const {
+    const sheet::TypedStyle& style = look.resolved.style;
+    if (style.technique == sheet::Technique::Mip || style.technique == sheet::Technique::Isosurface)
+        throw InvalidInput("labels.show", "largest values and isosurfaces of label numbers mean nothing",
+                           "set technique to plane, raycast, slices or surface, or labels.show to off")
+            .withField("labels.show");
+    const FieldMeta& field = look.meta->fields.at(static_cast<std::size_t>(look.shown.field));
+    look.labels = makeLabelTable(style.labels, field, look.shown.step, style.labels.opacity, "labels.show");
 }
 
 void TileMaker::findClipObject(CellLook& look, const NamingCell& from) {
@@ -132,7 +144,7 @@ void TileMaker::findLayers(CellLook& look, const NamingCell& from,
                                "set technique to raycast, or layers to none")
                 .withField("technique");
         }
-        auto layer = layerLook(look, names[i], from, contents);
+        auto layer = layerLook(look, names[i], "layers", from, contents);
         if (!layer) return;
         layer->weight = layers.weights.at(std::min(i + 1, layers.weights.size() - 1));
         look.layers.push_back(std::move(*layer));
@@ -140,9 +152,9 @@ void TileMaker::findLayers(CellLook& look, const NamingCell& from,
 }
 
 std::optional<LayerLook> TileMaker::layerLook(CellLook& look, const sheet::VolumeName& name,
-                                              const NamingCell& from,
+                                              const std::string& key, const NamingCell& from,
                                               const std::shared_ptr<const CellContents>& contents) {
-    auto volume = named_.find(name, from, "layers");
+    auto volume = named_.find(name, from, key);
     if (!volume.volume) {
         look.missing = std::move(volume.missing);
         return std::nullopt;
@@ -157,6 +169,7 @@ std::optional<LayerLook> TileMaker::layerLook(CellLook& look, const sheet::Volum
             cell->sheet.empty() ? from.sheetIndex : sheet::sheetIndex(from.workbook, cell->sheet);
         CellLook other = ownLook(from.workbook, index, cell->cell, from.view, contents);
         layer.transfer = std::move(other.transfer);
+        layer.labels = std::move(other.labels);
         style = std::move(other.resolved.style);
     } else {
         const sheet::ResolvedStyle initial = sheet::defaultStyle(keys_);
@@ -169,6 +182,33 @@ std::optional<LayerLook> TileMaker::layerLook(CellLook& look, const sheet::Volum
     layer.floatTexels =
         style.textureFormat == sheet::TextureFormat::Half ? FloatTexels::Half : FloatTexels::Full;
     return layer;
+}
+
+void TileMaker::findOverlay(CellLook& look, const NamingCell& from,
+                            const std::shared_ptr<const CellContents>& contents) {
+    const sheet::OverlayStyle& overlay = look.resolved.style.overlay;
+    if (overlay.volume.empty() || look.resolved.style.technique != sheet::Technique::Plane) return;
+    const auto name = sheet::parseVolumeName(overlay.volume, "overlay.dataset");
+    if (isCell(name, from)) return;
+    auto layer = layerLook(look, name, "overlay.dataset", from, contents);
+    if (!layer) return;
+    const FieldMeta& field = layer->meta->fields.at(static_cast<std::size_t>(layer->shown.field));
+    layer->weight = overlay.opacity;
+    layer->threshold = overlay.threshold;
+    if (overlay.map == "labels") {
+        layer->labels =
+            makeLabelTable(look.resolved.style.labels, field, layer->shown.step, 1.0, "overlay.map");
+    } else if (!layer->labels) {
+        sheet::ResolvedStyle own = sheet::defaultStyle(keys_);
+        own.style.transfer.map = overlay.map;
+        if (overlay.min || overlay.max)
+            own.style.range = {sheet::RangeMode::Fixed, overlay.min, overlay.max, ValueScale::Linear};
+        layer->transfer =
+            resolveTransfer(own, maps_, *cache_.summary(*layer->meta, layer->shown.field, layer->shown.step),
+                            boxPathUnitLengths(layer->meta->grid));
+        layer->transfer.function.opacities = {{0.0, 1.0}};
+    }
+    look.layers = {std::move(*layer)};
 }
 
 std::shared_ptr<const ValueSummary>
@@ -300,6 +340,11 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
     return tile;
 }
 
+std::shared_ptr<const TransferTable> TileMaker::tableOf(const std::optional<LabelTable>& labels,
+                                                        const ResolvedTransfer& transfer) {
+    return labels ? labels->table : cache_.table(transfer.function);
+}
+
 void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality) {
     if (look.missing) {
         tile.code = look.missing->code;
@@ -308,8 +353,13 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
         return;
     }
     const sheet::TypedStyle& style = look.resolved.style;
-    TileSpec spec = resolveTile(style, *look.meta, look.shown, cache_.table(look.transfer.function),
+    TileSpec spec = resolveTile(style, *look.meta, look.shown, tableOf(look.labels, look.transfer),
                                 quality.sizePixels, quality.level, quality.sampleDistanceFactor, look.frame);
+    if (look.labels) {
+        spec.categories = true;
+        spec.shading.enabled = false;
+        spec.level = 0; // Coarser levels hold means, and the mean of two labels is a third one.
+    }
     if (look.clipObject)
         spec.clip.object =
             resolveClipObject(style.clip, *look.clipObject, drawnGrid(look.meta->grid, spec.periodic));
@@ -322,13 +372,22 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
     }
     if (!look.layers.empty()) spec.layers.ownWeight = style.layers.weights.front();
     for (const LayerLook& layer : look.layers) {
-        spec.layers.volumes.push_back({layer.meta->key, layer.shown.field, layer.shown.step,
-                                       std::min(spec.level, layer.meta->levels() - 1),
-                                       cache_.table(layer.transfer.function), layer.unitLengthWorld,
-                                       layer.weight, layer.floatTexels});
-        tile.layerLevels.push_back(layer.meta->levels());
+        const int levels = layer.labels ? 1 : layer.meta->levels();
+        VolumeLayer drawn{layer.meta->key,
+                          layer.shown.field,
+                          layer.shown.step,
+                          std::min(spec.level, levels - 1),
+                          tableOf(layer.labels, layer.transfer),
+                          layer.unitLengthWorld,
+                          layer.weight,
+                          layer.floatTexels};
+        drawn.categories = layer.labels.has_value();
+        if (layer.threshold) drawn.threshold = *layer.threshold;
+        spec.layers.volumes.push_back(std::move(drawn));
+        tile.layerLevels.push_back(levels);
     }
     tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
+    if (look.labels) tile.needs.textureBytes.resize(1);
     tile.needs.further = furtherVolumes(look);
     tile.note = look.note;
     tile.spec = std::move(spec);
@@ -342,9 +401,11 @@ std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look) const
     if (const auto& by = look.colouredBy)
         volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step, FloatTexels::Full,
                                         environment_.exactR8Filtering));
-    for (const LayerLook& layer : look.layers)
+    for (const LayerLook& layer : look.layers) {
         volumes.push_back(furtherVolume(*layer.meta, layer.shown.field, layer.shown.step, layer.floatTexels,
                                         environment_.exactR8Filtering));
+        if (layer.labels) volumes.back().textureBytes.resize(1);
+    }
     return volumes;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/cell_contents.h"
 #include "engine/cell_resolver.h"
 #include "engine/engine.h"
+#include "engine/label_table.h"
 #include "engine/look_cache.h"
 #include "engine/named_volumes.h"
 
@@ -32,6 +33,8 @@ struct LayerLook {
     double unitLengthWorld = 1.0;
     double weight = 1.0;
     FloatTexels floatTexels = FloatTexels::Full;
+    std::optional<LabelTable> labels; ///< shown as categories: its table stands for `transfer`
+    std::optional<double> threshold;  ///< of an overlay
 };
 
 /// How one cell shows its dataset.
@@ -39,14 +42,15 @@ struct CellLook {
     sheet::ResolvedStyle resolved;
     FieldAndStep shown;
     ResolvedTransfer transfer;
-    IsosurfaceSpec isosurface; ///< empty unless the technique is isosurface
-    std::string note;          ///< PreparedTile::note
+    std::optional<LabelTable> labels; ///< shown as categories: its table stands for `transfer`
+    IsosurfaceSpec isosurface;        ///< empty unless the technique is isosurface
+    std::string note;                 ///< PreparedTile::note
     std::shared_ptr<const DatasetMeta> meta;
     bool sharedRange = false;
     std::optional<CameraFrame> frame; ///< not set: the cell's own
     std::optional<ClipObjectVolume> clipObject;
     std::optional<ColouringLook> colouredBy;
-    std::vector<LayerLook> layers;
+    std::vector<LayerLook> layers;        ///< fused, or, of technique plane, the overlay
     std::optional<MissingVolume> missing; ///< a volume that the style names; without it there is no picture
 };
 
@@ -115,12 +119,19 @@ private:
     void findColours(CellLook& look, const NamingCell& from);
     void findLayers(CellLook& look, const NamingCell& from,
                     const std::shared_ptr<const CellContents>& contents);
+    void findOverlay(CellLook& look, const NamingCell& from,
+                     const std::shared_ptr<const CellContents>& contents);
     /// Nothing: it is not there, and `look.missing` says why.
+    /// \param key  that names it
     [[nodiscard]] std::optional<LayerLook> layerLook(CellLook& look, const sheet::VolumeName& name,
-                                                     const NamingCell& from,
+                                                     const std::string& key, const NamingCell& from,
                                                      const std::shared_ptr<const CellContents>& contents);
+    void addLabels(CellLook& look) const;
     /// That the picture reads besides the cell's own.
     [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look) const;
+    /// What the picture's colours come from.
+    [[nodiscard]] std::shared_ptr<const TransferTable> tableOf(const std::optional<LabelTable>& labels,
+                                                               const ResolvedTransfer& transfer);
     void draw(PreparedTile& tile, const CellLook& look, const TileQuality& quality);
 
     const sheet::KeyTable& keys_;

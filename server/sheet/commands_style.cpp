@@ -62,11 +62,12 @@ void requireCellsConsistent(const Sheet& sheet, const Layer& layer, const KeyTab
             requireConsistent(resolveStyle(keys, sheet, address).style);
 }
 
-/// A window/level drag sends these keys; a camera drag need not pay for the check.
-bool touchesPairs(const StylePatch& patch) {
+/// Keys that must agree, or have a form of their own. A camera drag need not pay for the check.
+bool touchesChecked(const StylePatch& patch) {
     return std::any_of(patch.begin(), patch.end(), [](const auto& entry) {
         return entry.first == "transfer.cut1" || entry.first == "transfer.cut2" ||
-               entry.first.starts_with("range.");
+               entry.first.starts_with("range.") || entry.first == "overlay.min" ||
+               entry.first == "overlay.max" || entry.first == "labels.names";
     });
 }
 
@@ -87,7 +88,7 @@ void perform(Workbook& workbook, const SetStyle& command, const KeyTable& keys) 
     }
     if (command.clearNearer) clearNearerValues(sheet, command);
     dropBlank(sheet);
-    if (touchesPairs(command.patch)) requireCellsConsistent(sheet, command.layer, keys);
+    if (touchesChecked(command.patch)) requireCellsConsistent(sheet, command.layer, keys);
 }
 
 } // namespace voxsheet::sheet

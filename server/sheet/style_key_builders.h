@@ -36,6 +36,9 @@ void addPeriodicKeys(std::vector<KeySpec>& keys);
 void addCrystalKeys(std::vector<KeySpec>& keys);
 void addClipKeys(std::vector<KeySpec>& keys);
 void addLayerKeys(std::vector<KeySpec>& keys);
+void addLabelKeys(std::vector<KeySpec>& keys);
+/// \param maps  names of colour maps
+void addOverlayKeys(std::vector<KeySpec>& keys, const std::vector<std::string>& maps);
 void addLightKeys(std::vector<KeySpec>& keys);
 
 } // namespace voxsheet::sheet

@@ -24,7 +24,7 @@ enum class KeyType {
     FieldName,     ///< std::string (a field's name) or std::int64_t (its index, from 0)
     NumberRows,    ///< NumberTable: minRows to maxRows rows of columnNames.size() numbers, each in [min, max]
     Colours,       ///< ColourList: 1 to 8, opaque
-    Text,          ///< std::string: 1 to 200 bytes of UTF-8 without control characters
+    Text,          ///< std::string: 1 to maxBytes bytes of UTF-8 without control characters
 };
 
 /// "number", "integer", "choice", "colour", "vector3", "opacityPoints", "colourPoints", "fieldName",
@@ -49,6 +49,7 @@ struct KeySpec {
     std::vector<std::string> columnNames; ///< NumberRows
     std::size_t minRows = 1;              ///< NumberRows
     std::size_t maxRows = 1;
+    std::size_t maxBytes = 200;           ///< Text
     std::vector<std::string> suggestions; ///< Text: words that mean something, for the inspector
     std::vector<std::string> choices;     ///< Choice
     bool takesNone = false;               ///< "none" is a value

@@ -37,20 +37,29 @@ void addIsosurfaceKeys(std::vector<KeySpec>& keys) {
 void addPlaneKeys(std::vector<KeySpec>& keys) {
     const std::string group = "Plane";
     const std::vector<std::string> plane{"plane"};
-    keys.push_back(
-        when(choice("plane.axis", {"axial", "coronal", "sagittal", "custom"}, "axial", group,
-                    "The plane's normal: z (axial), y (coronal), x (sagittal) of the world, or plane.normal. "
-                    "Patients (RAS+ axes) are shown as radiologists do, their right on the left of the "
-                    "picture, sagittal planes from their left; other data with x or y to the right and y or "
-                    "z up. camera.distance zooms (3.9 shows all), camera.target moves the picture, the "
-                    "camera's angles and clip keys do nothing here."),
-             "technique", plane));
+    keys.push_back(when(
+        choice("plane.axis", {"axial", "coronal", "sagittal", "custom", "hkl"}, "axial", group,
+               "The plane's normal: z (axial), y (coronal), x (sagittal) of the world, plane.normal, or, in "
+               "crystals, that of the lattice planes plane.hkl. "
+               "Patients (RAS+ axes) are shown as radiologists do, their right on the left of the "
+               "picture, sagittal planes from their left; other data with x or y to the right and y or "
+               "z up. camera.distance zooms (3.9 shows all), camera.target moves the picture, the "
+               "camera's angles and clip keys do nothing here."),
+        "technique", plane));
     KeySpec normal = typed("plane.normal", KeyType::Vector3, glm::dvec3(0.0, 0.0, 1.0), group, "vector",
                            "Normal of a custom plane along the world axes, towards the eye; z is up in the "
                            "picture, or y where the normal is z.");
     normal.min = -1e6;
     normal.max = 1e6;
     keys.push_back(when(std::move(normal), "plane.axis", {"custom"}));
+    KeySpec hkl =
+        typed("plane.hkl", KeyType::Vector3, glm::dvec3(1.0), group, "vector",
+              "Miller indices of a plane of a crystal's lattice: three whole numbers, not all zero. "
+              "The normal is h a* + k b* + l c*, the lattice that of the file. The wheel steps by about "
+              "a voxel, so that a whole number of steps leads to the next plane of the set.");
+    hkl.min = -99.0;
+    hkl.max = 99.0;
+    keys.push_back(when(std::move(hkl), "plane.axis", {"hkl"}));
     keys.push_back(when(number("plane.position", "of the box", 0, 1, 0.5, group,
                                "Where the plane lies: 0 to 1 through the drawn box along the normal. With a "
                                "crosshair it passes through that instead."),

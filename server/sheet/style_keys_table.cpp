@@ -172,9 +172,11 @@ KeyTable makeKeyTable(std::vector<std::string> colourMapNames) {
     addTechnique(keys);
     addIsosurfaceKeys(keys);
     addPlaneKeys(keys);
-    addTransfer(keys, std::move(colourMapNames));
+    addTransfer(keys, colourMapNames);
     addRange(keys);
+    addLabelKeys(keys);
     addLayerKeys(keys);
+    addOverlayKeys(keys, colourMapNames);
     addPeriodicKeys(keys);
     addCrystalKeys(keys);
     addClipKeys(keys);

@@ -19,7 +19,6 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMaxColours = 8;
-constexpr std::size_t kMaxTextBytes = 200;
 
 /// "1 to 8 numbers", "up to 8 rows [x, y, z, position]".
 std::string rowsExpectation(const KeySpec& key) {
@@ -70,7 +69,7 @@ std::string expectation(const KeySpec& key) {
         text = "1 to " + std::to_string(kMaxColours) + " colours #rrggbb";
         break;
     case KeyType::Text:
-        text = "a text of 1 to " + std::to_string(kMaxTextBytes) + " bytes";
+        text = "a text of 1 to " + std::to_string(key.maxBytes) + " bytes";
         break;
     }
     if (key.takesNone) text += ", or none";
@@ -371,7 +370,7 @@ struct Validator {
         if (key.type == KeyType::FieldName)
             return !value.empty() && value.size() <= 200 && isValidUtf8(value) && !hasControlCharacter(value);
         if (key.type == KeyType::Text)
-            return !value.empty() && value.size() <= kMaxTextBytes && isValidUtf8(value) &&
+            return !value.empty() && value.size() <= key.maxBytes && isValidUtf8(value) &&
                    !hasControlCharacter(value);
         return key.type == KeyType::Choice &&
                std::find(key.choices.begin(), key.choices.end(), value) != key.choices.end();

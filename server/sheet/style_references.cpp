@@ -11,7 +11,8 @@ namespace voxsheet::sheet {
 
 namespace {
 
-constexpr std::array<const char*, 3> kNamingKeys{"clip.shape", "isosurface.colorBy", "layers"};
+constexpr std::array<const char*, 4> kNamingKeys{"clip.shape", "isosurface.colorBy", "layers",
+                                                 "overlay.dataset"};
 constexpr const char* kGone = "#REF!";
 
 /// What takes the place of a name; nullopt: it stays as it was written.

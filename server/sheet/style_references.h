@@ -1,5 +1,5 @@
-// Style values that name volumes (clip.shape, isosurface.colorBy, layers) follow them when cells move and
-// when sheets or datasets get another name, as formulas do.
+// Style values that name volumes (clip.shape, isosurface.colorBy, layers, overlay.dataset) follow them when
+// cells move and when sheets or datasets get another name, as formulas do.
 #pragma once
 
 #include "sheet/formula/references.h"

@@ -1,6 +1,7 @@
 #include "sheet/typed_style.h"
 
 #include "base/errors.h"
+#include "sheet/label_names.h"
 #include "sheet/number_text.h"
 #include "sheet/style.h"
 
@@ -65,6 +66,7 @@ private:
 using Words2 = std::array<std::string_view, 2>;
 using Words3 = std::array<std::string_view, 3>;
 using Words4 = std::array<std::string_view, 4>;
+using Words5 = std::array<std::string_view, 5>;
 using Words6 = std::array<std::string_view, 6>;
 
 constexpr Words6 kTechniques{"slices", "raycast", "mip", "surface", "isosurface", "plane"};
@@ -84,7 +86,7 @@ constexpr Words3 kShadingModels{"auto", "none", "phong"};
 constexpr Words3 kGradients{"auto", "texture", "onthefly"};
 constexpr Words2 kLightFrames{"view", "world"};
 constexpr Words2 kTextureFormats{"auto", "half"};
-constexpr Words4 kPlaneAxes{"axial", "coronal", "sagittal", "custom"};
+constexpr Words5 kPlaneAxes{"axial", "coronal", "sagittal", "custom", "hkl"};
 constexpr Words3 kFrames{"fit", "centre", "world"};
 constexpr Words2 kPlaneUnits{"fraction", "world"};
 constexpr Words2 kPlaneInterpolations{"linear", "nearest"};
@@ -161,6 +163,27 @@ LayersStyle layersOf(const Reader& read) {
     return {read.find<std::string>("layers").value_or(""), columnOf(read.rows("layers.weights"))};
 }
 
+LabelsStyle labelsOf(const Reader& read) {
+    LabelsStyle labels;
+    labels.show = read.choice<int>("labels.show", kSwitch) == 1;
+    labels.names = read.find<std::string>("labels.names").value_or("");
+    for (const double value : columnOf(read.rows("labels.hide")))
+        labels.hidden.insert(static_cast<std::int64_t>(std::clamp(std::round(value), -9e15, 9e15)));
+    labels.opacity = read.get<double>("labels.opacity");
+    return labels;
+}
+
+OverlayStyle overlayOf(const Reader& read) {
+    OverlayStyle overlay;
+    overlay.volume = read.find<std::string>("overlay.dataset").value_or("");
+    overlay.map = read.get<std::string>("overlay.map");
+    overlay.opacity = read.get<double>("overlay.opacity");
+    overlay.threshold = read.find<double>("overlay.threshold");
+    overlay.min = read.find<double>("overlay.min");
+    overlay.max = read.find<double>("overlay.max");
+    return overlay;
+}
+
 CrystalStyle crystalOf(const Reader& read) {
     CrystalStyle crystal;
     crystal.cell = read.choice<int>("crystal.cell", kSwitch) == 1;
@@ -174,6 +197,7 @@ PlaneStyle planeOf(const Reader& read) {
     PlaneStyle plane;
     plane.axis = read.choice<PlaneAxis>("plane.axis", kPlaneAxes);
     plane.normal = read.get<glm::dvec3>("plane.normal");
+    plane.hkl = read.get<glm::dvec3>("plane.hkl");
     plane.position = read.get<double>("plane.position");
     plane.interpolation = read.choice<PlaneInterpolation>("plane.interpolation", kPlaneInterpolations);
     plane.crosshair = read.find<glm::dvec3>("plane.crosshair");
@@ -223,7 +247,9 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.crystal = crystalOf(read);
     style.clip = clipOf(read);
     style.isosurface = isosurfaceOf(read);
+    style.labels = labelsOf(read);
     style.layers = layersOf(read);
+    style.overlay = overlayOf(read);
     style.plane = planeOf(read);
     style.shading = shadingOf(read);
     style.light = lightOf(read);
@@ -284,6 +310,10 @@ void requirePlaneConsistent(const PlaneStyle& plane) {
     if (plane.axis == PlaneAxis::Custom && isZero(plane.normal))
         throw InvalidInput("plane.normal", "it has no length", "give a direction such as 1,0,1")
             .withField("plane.normal");
+    if (plane.axis == PlaneAxis::Hkl && (isZero(plane.hkl) || plane.hkl != glm::round(plane.hkl)))
+        throw InvalidInput("plane.hkl", "Miller indices are whole numbers and not all zero",
+                           "give three from -99 to 99 such as 1,1,0")
+            .withField("plane.hkl");
 }
 
 void requirePeriodicConsistent(const PeriodicStyle& periodic) {
@@ -314,6 +344,13 @@ void requireConsistent(const TypedStyle& style) {
     requirePeriodicConsistent(style.periodic);
     requireClipConsistent(style.clip);
     requirePlaneConsistent(style.plane);
+    if (!style.labels.names.empty()) static_cast<void>(parseLabelNames(style.labels.names));
+    if (style.overlay.min && style.overlay.max && *style.overlay.min >= *style.overlay.max)
+        throw InvalidInput("overlay.min",
+                           numberText(*style.overlay.min) + " is not less than overlay.max, " +
+                               numberText(*style.overlay.max),
+                           "set both together")
+            .withField("overlay.min");
     requireLightConsistent(style.light);
 }
 

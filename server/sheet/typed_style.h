@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -131,8 +132,28 @@ struct LayersStyle {
     bool operator==(const LayersStyle&) const = default;
 };
 
-/// Normals along z, y and x of the world, or PlaneStyle::normal.
-enum class PlaneAxis { Axial, Coronal, Sagittal, Custom };
+/// Values shown as categories.
+struct LabelsStyle {
+    bool show = false;
+    std::string names; ///< empty: none; else as parseLabelNames()
+    std::set<std::int64_t> hidden;
+    double opacity = 1.0; ///< per unit length
+    bool operator==(const LabelsStyle&) const = default;
+};
+
+/// A second volume painted over technique plane.
+struct OverlayStyle {
+    std::string volume; ///< empty: none; a cell ("B1") or a dataset's name
+    std::string map;    ///< "labels": categories
+    double opacity = 0.6;
+    std::optional<double> threshold; ///< smaller values are not shown
+    std::optional<double> min;       ///< of its range; not set: the data's
+    std::optional<double> max;       ///< likewise; min < max where both are set
+    bool operator==(const OverlayStyle&) const = default;
+};
+
+/// Normals along z, y and x of the world, PlaneStyle::normal, or that of the lattice planes PlaneStyle::hkl.
+enum class PlaneAxis { Axial, Coronal, Sagittal, Custom, Hkl };
 enum class PlaneInterpolation { Linear, Nearest };
 
 /// Of the crosshair: fractions of the drawn box's extents along the world's axes, or world coordinates.
@@ -146,6 +167,7 @@ struct PlaneStyle {
     PlaneInterpolation interpolation = PlaneInterpolation::Linear;
     std::optional<glm::dvec3> crosshair; ///< set: the plane passes through it, wherever `position` is
     PlaneUnits units = PlaneUnits::Fraction;
+    glm::dvec3 hkl{1.0}; ///< Hkl: Miller indices, whole numbers, not all zero
     bool operator==(const PlaneStyle&) const = default;
 };
 
@@ -208,7 +230,9 @@ struct TypedStyle {
     CrystalStyle crystal;
     ClipStyle clip;
     IsosurfaceStyle isosurface;
+    LabelsStyle labels;
     LayersStyle layers;
+    OverlayStyle overlay;
     PlaneStyle plane;
     ShadingStyle shading;
     LightStyle light;
@@ -223,7 +247,8 @@ struct TypedStyle {
 
 /// Keys that must agree: transfer.cut1 < transfer.cut2; range.min < range.max; percentiles within [0, 100];
 /// periodic.replicate whole; normals (of a plane only where plane.axis is custom), directions and scales not
-/// zero; clip.box low < high. Throws InvalidInput with the field at fault.
+/// zero; where plane.axis is hkl, plane.hkl whole and not zero; overlay.min < overlay.max; labels.names as
+/// parseLabelNames(); clip.box low < high. Throws InvalidInput with the field at fault.
 void requireConsistent(const TypedStyle& style);
 
 } // namespace voxsheet::sheet

@@ -144,6 +144,35 @@ glm::dvec4 facePixel(const RayTruth& ray) {
     return {ray.lit(glm::dvec3(classify(*ray.tile.transfer, value)), hit->normal), 1.0};
 }
 
+glm::dvec4 planeColour(const RayTruth& ray, double value) {
+    if (std::isnan(value)) {
+        const glm::dvec4 nan(ray.tile.transfer->nan);
+        return {glm::dvec3(nan) * nan.w, nan.w};
+    }
+    const auto entry = classify(*ray.tile.transfer, value);
+    if (ray.tile.categories && entry.w <= 0.0) return glm::dvec4(0.0);
+    return {glm::dvec3(entry), 1.0};
+}
+
+/// What layer i shows at a point of the world, painted over a plane's colour.
+glm::dvec4 paintedOver(const glm::dvec4& colour, const RayTruth& ray, const glm::dvec3& point,
+                       std::size_t i) {
+    const auto& source = ray.sources.layers[i];
+    const auto& layer = ray.tile.layers.volumes[i];
+    const auto index = glm::dvec3(glm::inverse(source.grid.worldFromIndex) * glm::dvec4(point, 1.0));
+    const auto box = boxIndex(source.grid);
+    constexpr double slack = 1e-4; // voxels: boxes that share a face share its points
+    if (glm::any(glm::lessThan(index, box.low - slack)) ||
+        glm::any(glm::greaterThan(index, box.high + slack)))
+        return colour;
+    const double value =
+        source.value(glm::dvec3(glm::inverse(worldFromTexture(source.grid)) * glm::dvec4(point, 1.0)));
+    if (!(value >= layer.threshold)) return colour;
+    const auto entry = classify(*layer.transfer, value);
+    const double alpha = layer.weight * entry.w;
+    return glm::dvec4(alpha * glm::dvec3(entry), alpha) + (1.0 - alpha) * colour;
+}
+
 glm::dvec4 planePixel(const RayTruth& ray) {
     const auto& plane = ray.tile.plane;
     const auto drawn = drawnGrid(ray.sources.grid, ray.tile.periodic);
@@ -162,11 +191,10 @@ glm::dvec4 planePixel(const RayTruth& ray) {
     const double value = plane.interpolation == PlaneInterpolation::Nearest
                              ? ray.sources.nearest(texture + aboveBorder)
                              : ray.sources.value(texture);
-    if (std::isnan(value)) {
-        const glm::dvec4 nan(ray.tile.transfer->nan);
-        return {glm::dvec3(nan) * nan.w, nan.w};
-    }
-    return {glm::dvec3(classify(*ray.tile.transfer, value)), 1.0};
+    auto colour = planeColour(ray, value);
+    for (std::size_t i = 0; i < ray.sources.layers.size(); ++i)
+        colour = paintedOver(colour, ray, point, i);
+    return colour;
 }
 
 bool isInside(const IsosurfaceSpec& spec, double value) {

@@ -12,6 +12,13 @@ ValueAt valuesOf(const std::shared_ptr<const Interpolant>& interpolant) {
     return [interpolant](const glm::dvec3& texture) { return interpolant->at(texture); };
 }
 
+/// Of categories: a point on the border of two voxels, or less than 1/1024 voxel below it, is in the higher
+/// one.
+ValueAt nearestValuesOf(const std::shared_ptr<const Interpolant>& interpolant) {
+    const auto aboveBorder = 1.0 / 1024.0 / glm::dvec3(interpolant->dims());
+    return [=](const glm::dvec3& texture) { return interpolant->nearest(texture + aboveBorder); };
+}
+
 ClipSource clipSourceOf(const VolumeProvider& volumes, const ClipObject& object) {
     const auto interpolant = std::make_shared<const Interpolant>(volumes, VolumeKey{object.dataset, 0, 0, 0});
     const auto meta = volumes.describe(object.dataset);
@@ -39,7 +46,7 @@ LayerSource layerSourceOf(const VolumeProvider& volumes, const VolumeLayer& laye
     const auto interpolant = std::make_shared<const Interpolant>(
         volumes, VolumeKey{layer.dataset, layer.field, layer.step, layer.level});
     const auto grid = volumes.describe(layer.dataset)->grid;
-    const auto value = valuesOf(interpolant);
+    const auto value = layer.categories ? nearestValuesOf(interpolant) : valuesOf(interpolant);
     return {grid, interpolant->dims(), value, onTheFlySlope(value, interpolant->dims(), grid.periodic)};
 }
 
@@ -52,7 +59,7 @@ Sources sourcesOf(const VolumeProvider& volumes, const TileSpec& tile) {
     Sources sources;
     sources.grid = meta->grid;
     sources.levelDims = interpolant->dims();
-    sources.value = valuesOf(interpolant);
+    sources.value = tile.categories ? nearestValuesOf(interpolant) : valuesOf(interpolant);
     sources.nearest = [interpolant](const glm::dvec3& texture) { return interpolant->nearest(texture); };
     sources.indexSlope = tile.shading.gradient == GradientSource::Texture
                              ? textureSlope(sources.value, sources.levelDims, meta->grid.periodic)

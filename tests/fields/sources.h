@@ -37,7 +37,7 @@ struct ColourSource {
 struct LayerSource {
     Grid grid;
     glm::ivec3 levelDims{1};
-    ValueAt value;
+    ValueAt value;         ///< of categories that of the nearest sample
     GradientAt indexSlope; ///< by six taps
 };
 

@@ -55,6 +55,44 @@ TEST_F(ApiScans, PlanesStandBesideEveryNamedCellAsOneUndoStep) {
     EXPECT_EQ(getJson("/api/v1/workbook"), before);
 }
 
+TEST_F(ApiScans, ALabelMapAndAnOverlayTellTheirNamesAndValues) {
+    // Values are x + 10 y + 3 z + offset.
+    ASSERT_EQ(
+        program_
+            ->ask(
+                "PATCH", kSheet + "/cells/A2",
+                R"({"labels.show": "on", "labels.names": "60: liver #ff0000; 61: spleen", "labels.hide": [[61]]})")
+            .status,
+        200);
+    const auto bar = getJson(kSheet + "/cells/A2/colourbar").at("labels");
+    const auto named = [&](int value) -> json {
+        for (const auto& label : bar)
+            if (label.at("value") == value) return label;
+        return nullptr;
+    };
+    ASSERT_TRUE(named(60).is_object()) << bar;
+    EXPECT_EQ(named(60).at("name"), "liver");
+    EXPECT_EQ(named(60).at("colour"), json::array({1.0, 0.0, 0.0}));
+    EXPECT_TRUE(named(61).at("hidden"));
+    ASSERT_EQ(
+        program_->ask("PATCH", kSheet + "/cells/A1", R"({"technique": "plane", "overlay.dataset": "A2"})")
+            .status,
+        200);
+    EXPECT_EQ(getJson(kSheet + "/cells/A1/colourbar").at("layers").at(0).at("name"), "A2");
+    const auto values = getJson(kSheet + "/probe?x=4&y=4&z=5").at("values"); // 59 and, one more, 60
+    EXPECT_EQ(values.at(0).at("label"), nullptr);
+    EXPECT_EQ(values.at(1).at("label"), "liver") << values;
+    EXPECT_EQ(values.at(0).at("layers").at(0).at("label"), "liver");
+    const auto refused =
+        program_->get(kSheet + "/cells/A2/image.png?width=64&height=64&technique=isosurface");
+    EXPECT_EQ(refused.status, 400);
+    EXPECT_EQ(refused.json().at("field"), "labels.show");
+    const auto nothing = program_->get(kSheet + "/cells/A1/image.png?width=64&height=64&overlay.dataset=Z9");
+    EXPECT_EQ(nothing.json().at("field"), "overlay.dataset");
+    for (int i = 0; i < 2; ++i)
+        EXPECT_EQ(program_->ask("POST", "/api/v1/undo").status, 200);
+}
+
 TEST_F(ApiScans, CellsSayWhatTheirCamerasLengthsReferTo) {
     const auto frame = [&](const std::string& cell) {
         return getJson(kSheet + "/cells/" + cell).at("frame");

@@ -69,3 +69,25 @@ test("cells that show no plane, or nothing, do not step", () => {
     const other = { cell: "A1", state: "ok", box: points, style: { technique: { value: "mip", origin: "sheet" } } };
     assert.equal(steppedPlane(other as unknown as CellState, style({}), 1), null);
 });
+
+test("planes of a lattice step by about a voxel, from lattice plane to lattice plane", () => {
+    // A primitive cell of face-centred cubic, 24 samples along each vector, 2 x 1 x 1 periods drawn.
+    const lattice: VolumeBox["edges"] = [[0, 2, 2], [2, 0, 2], [2, 2, 0]];
+    const fcc: VolumeBox = {
+        origin: [1, 2, 3],
+        edges: [[0, 4, 4], [2, 0, 2], [2, 2, 0]],
+        voxels: [48, 24, 24],
+        firstSample: [0, 0, 0],
+        lattice,
+    };
+    // (111) of the primitive vectors has the normal (1, 1, 1) and the distance 4 / sqrt(3).
+    const shown = { "plane.axis": "hkl", "plane.hkl": [1, 1, 1], "periodic.replicate": [2, 1, 1] };
+    // A step of 1 / 8 of it moves by one voxel along each of the three axes.
+    const reach = 4; // planes of the set that the box crosses: hkl . (2, 1, 1)
+    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 8), 2 / reach);
+    near(stepped(fcc, { ...shown, "plane.position": 1 / reach }, 1), (1 + 1 / 8) / reach);
+    // A shift moves the lattice points: the first step leads to a place counted from them.
+    const shifted = { ...shown, "periodic.shift": [0.01, 0, 0], "plane.position": 1 / reach };
+    near(stepped(fcc, shifted, 1), (1 + 0.01) / reach);
+    assert.equal(stepped({ ...fcc, lattice: undefined }, shown, 1), undefined);
+});

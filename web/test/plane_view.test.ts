@@ -68,3 +68,15 @@ test("dragging a plane moves it with the pointer, and zooming keeps what lies un
     assert.ok(Math.abs(zoom.target[1] * radius - 1.04) < 1e-9, "the upper edge stays where it is");
     assert.equal(flatView({ ...cell, style: {} }, 1), undefined);
 });
+
+test("planes of a lattice face the eye along their vector of the reciprocal lattice", () => {
+    // A hexagonal cell: (110) is at right angles to a + b, (100) is not to a.
+    const lattice = [[2, 0, 0], [-1, Math.sqrt(3), 0], [0, 0, 5]];
+    const box = { origin: [0, 0, 0], edges: lattice, lattice };
+    const towardsEye = (hkl: number[]): Vector =>
+        pictureBasis({ ...cellWith({ technique: "plane", "plane.axis": "hkl", "plane.hkl": hkl }), box } as unknown as CellState, defaultCamera).towardsEye;
+    const near = (actual: Vector, expected: Vector): void => actual.forEach((part, i) => assert.ok(Math.abs(part - expected[i]!) < 1e-12));
+    near(towardsEye([1, 1, 0]), [0.5, Math.sqrt(3) / 2, 0]);
+    near(towardsEye([1, 0, 0]), [Math.sqrt(3) / 2, 0.5, 0]);
+    near(towardsEye([0, 0, -3]), [0, 0, -1]);
+});

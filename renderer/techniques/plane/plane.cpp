@@ -42,13 +42,21 @@ void drawPlane(SharedStages& stages, const DrawRequest& request) {
                            "choose the orthographic projection")
             .withField("camera.projection");
     const auto& volume = volumes.volume;
-    auto defines = ClassificationStage::defines(*tile.transfer, volume, stages.filterFloatsInShader);
+    auto defines =
+        ClassificationStage::defines(*tile.transfer, volume, stages.filterFloatsInShader, tile.categories);
     defines.emplace_back("CLIP_PLANES", "0");
-    defines.emplace_back("NEAREST", tile.plane.interpolation == PlaneInterpolation::Nearest ? "1" : "0");
+    const bool nearest = tile.categories || tile.plane.interpolation == PlaneInterpolation::Nearest;
+    defines.emplace_back("NEAREST", nearest ? "1" : "0");
+    defines.emplace_back("CATEGORIES", tile.categories ? "1" : "0");
+    const auto layers = LayerStage::defines(tile, volumes.layers, stages.filterFloatsInShader);
+    defines.insert(defines.end(), layers.begin(), layers.end());
+    defines.emplace_back("SHADING", "0");
+    defines.emplace_back("SKIP_EMPTY", "0");
     defines.emplace_back("SOLIDS", volumes.solids != nullptr ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/plane/plane.glsl", defines);
 
     stages.classification.bind(program, tile.transfer, volume);
+    LayerStage::bind(program, tile, volume, volumes.layers, stages.classification);
     setRayUniforms(program, frame, tile.sizePixels);
     if (volumes.solids != nullptr) volumes.solids->bind(solidsUnit);
     const auto onPlane = planeInPicture(tile.plane, frame, placedGrid(volume.meta->grid, tile.periodic));
@@ -57,7 +65,6 @@ void drawPlane(SharedStages& stages, const DrawRequest& request) {
     program.set("planeOrigin", glm::vec3(picture.origin));
     program.set("planeRight", glm::vec3(picture.right));
     program.set("planeUp", glm::vec3(picture.up));
-    program.set("periodicAxes", glm::vec3(volume.meta->grid.periodic));
     program.set("nanColour", tile.transfer->nan);
     target.bindImage(0, GL_WRITE_ONLY);
     constexpr double samplesPerPixel = 1.0;

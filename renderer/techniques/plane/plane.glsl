@@ -1,7 +1,9 @@
 // The volume's values where a plane cuts it (techniques/plane/plane.h).
-//   NEAREST  1: of the voxel that holds the point; 0: trilinear
+//   NEAREST     1: of the voxel that holds the point; 0: trilinear
+//   CATEGORIES  1: clear where the table is
 #include "stages/classification.glsl"
 #include "stages/kept_span.glsl"
+#include "stages/layers.glsl"
 #include "stages/picture_pixel.glsl"
 #include "stages/solids.glsl"
 
@@ -9,31 +11,38 @@ uniform float planeSeen;  // 0: edge-on
 uniform vec3 planeOrigin; // texture frame; as planeRight and planeUp, which are per unit of picture coordinates
 uniform vec3 planeRight;
 uniform vec3 planeUp;
-uniform vec3 periodicAxes; // 1 on axes that wrap
 uniform vec4 nanColour;    // not premultiplied
 
 const float kFaceSlack = 1e-5;
 
 float texelOnPlane(vec3 position) {
 #if NEAREST
-    // A point half-way between two samples must not fall to either by rounding, or the picture speckles.
-    const float towardsHigher = 1.0 / 1024.0;
-    ivec3 size = textureSize(volume, 0);
-    ivec3 index = ivec3(floor(position * vec3(size) + towardsHigher));
-    return texelFetch(volume, sampleInside(index, size, periodicAxes), 0).r;
+    return nearestTexel(volume, position, filterPeriodic);
 #else
     return texelAt(position);
 #endif
 }
 
-vec4 colourAt(vec3 position) {
-    bool outside = any(lessThan(position, boxLow - kFaceSlack)) || any(greaterThan(position, boxHigh + kFaceSlack));
-    if (outside || planeSeen == 0.0) return vec4(0.0);
+vec4 ownColour(vec3 position) {
     float texel = texelOnPlane(position);
 #if MAY_BE_NAN
     if (isnan(texel)) return vec4(nanColour.rgb * nanColour.a, nanColour.a);
 #endif
-    return vec4(classifyTexel(texel).rgb, 1.0);
+    vec4 entry = classifyTexel(texel);
+#if CATEGORIES
+    if (entry.a <= 0.0) return vec4(0.0);
+#endif
+    return vec4(entry.rgb, 1.0);
+}
+
+vec4 colourAt(vec3 position) {
+    bool outside = any(lessThan(position, boxLow - kFaceSlack)) || any(greaterThan(position, boxHigh + kFaceSlack));
+    if (outside || planeSeen == 0.0) return vec4(0.0);
+    vec4 colour = ownColour(position);
+#if LAYERS
+    paintLayers(colour, position);
+#endif
+    return colour;
 }
 
 void main() {

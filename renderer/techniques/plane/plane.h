@@ -4,7 +4,8 @@
 // TileSpec::plane; a value that is NaN the table's colour for it, premultiplied. Where the ray meets the
 // plane outside the drawn box, or the plane is seen edge-on, the pixel is transparent. A point counts as
 // inside up to 1e-5 of the box's dims beyond its faces, so that a plane in a face is seen. Nothing clips or
-// lights it.
+// lights it. Of categories the nearest samples, clear where the table is. Layers (stages/layer_spec.h) are
+// painted over it.
 #pragma once
 
 #include "stages/shared_stages.h"

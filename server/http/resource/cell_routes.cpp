@@ -68,9 +68,9 @@ void addCellRoutes(Router& router, const ApiContext& context) {
                 .pattern = "/api/v1/sheets/{sheet}/cells/{cell}",
                 .handler = [&context](Request& request) { return getCell(context, request); },
                 .summary = "One cell: title, source, state, its own style values and all resolved ones",
-                .answerDoc =
-                    "{cell, title, source, state, code, message, box: {origin, edges, voxels, firstSample}, "
-                    "style, resolved}"});
+                .answerDoc = "{cell, title, source, state, code, message, box: {origin, edges, voxels, "
+                             "firstSample, lattice}, "
+                             "style, resolved}"});
     router.add(
         {.method = "PATCH",
          .pattern = "/api/v1/sheets/{sheet}/cells/{cell}",

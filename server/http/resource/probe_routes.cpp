@@ -22,12 +22,17 @@ nlohmann::json pointJson(const glm::dvec3& point) {
     return nlohmann::json::array({point.x, point.y, point.z});
 }
 
+nlohmann::json labelJson(const std::string& label) {
+    return label.empty() ? nlohmann::json(nullptr) : nlohmann::json(label);
+}
+
 nlohmann::json layersJson(const std::vector<engine::LayerValue>& layers) {
     auto list = nlohmann::json::array();
     for (const auto& layer : layers)
         list.push_back({{"name", layer.name},
                         {"value", numberOrNull(layer.value)},
                         {"interpolated", numberOrNull(layer.interpolated)},
+                        {"label", labelJson(layer.label)},
                         {"unit", layer.unit},
                         {"note", layer.note}});
     return list;
@@ -38,6 +43,7 @@ nlohmann::json valueJson(const engine::ProbeValue& probe) {
             {"value", numberOrNull(probe.value)},
             {"interpolated", numberOrNull(probe.interpolated)},
             {"index", {probe.index.x, probe.index.y, probe.index.z}},
+            {"label", labelJson(probe.label)},
             {"unit", probe.unit},
             {"note", probe.note},
             {"hit", probe.hit.empty() ? nlohmann::json(nullptr) : nlohmann::json(probe.hit)},
@@ -137,11 +143,13 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                    {"stream", "string", "use the view of this stream's page"}},
          .anyStyleKey = true,
          .pool = Pool::Render,
-         .answerDoc =
-             "{world, values: [{cell, value, interpolated, index, unit, note, hit, isovalue, layers: [{name, "
-             "value, interpolated, unit, note}]}]}; layers: of the fused view; hit: of "
-             "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
-             "(nothing opaque enough), else null"});
+         .answerDoc = "{world, values: [{cell, value, interpolated, index, label, unit, note, hit, isovalue, "
+                      "layers: [{name, "
+                      "value, interpolated, label, unit, note}]}]}; label: what a label map calls the value, "
+                      "else null; "
+                      "layers: of the fused view, or the overlay; hit: of "
+                      "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
+                      "(nothing opaque enough), else null"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/range",
@@ -164,7 +172,7 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                 .anyStyleKey = true,
                 .answerDoc =
                     "{stops, low, high, scale, unit, quantity, shared, ticks, isovalues: [{value, position, "
-                    "colour, opacity}], colouredBy, layers}"});
+                    "colour, opacity}], colouredBy, labels: [{value, name, colour, hidden}], layers}"});
 }
 
 } // namespace voxsheet::http

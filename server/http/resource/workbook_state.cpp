@@ -2,6 +2,7 @@
 
 #include "engine/cell_resolver.h"
 #include "engine/dataset_json.h"
+#include "engine/lattice_planes.h"
 #include "http/resource/edit_answer.h"
 #include "sheet/workbook_json.h"
 
@@ -75,6 +76,8 @@ nlohmann::json cellState(const sheet::Address& address, const sheet::Cell& cell,
     if (ready) {
         const auto window = engine::periodicWindow(style.periodic);
         out["box"] = engine::describeBox(drawnGrid(status->meta->grid, window));
+        if (const auto lattice = engine::latticeOf(*status->meta))
+            out["box"]["lattice"] = engine::describeLattice(*lattice);
     }
     out["frame"] = nullptr;
     if (ready && status->frame) out["frame"] = engine::describeFrame(*status->frame);

@@ -21,7 +21,8 @@ enum class StyleDetail {
 /// {"name", "title", "rows", "columns", "columnTitles", "rowTitles", "cells": [{"cell", "title", "source",
 /// "state", "code", "message", "progress", "dataset", "orientation", "box", "frame", "notes", "style"}]}:
 /// every cell of a grid of up to 1024, only those with content of a larger one. "box" is the drawn box of
-/// what the cell shows, also of a formula's result (engine::describeBox), "frame" what the camera's lengths
+/// what the cell shows, also of a formula's result (engine::describeBox), of crystals with the "lattice" that
+/// Miller indices refer to (rows a, b, c; engine::latticeOf), "frame" what the camera's lengths
 /// refer to (engine::describeFrame); null while there is none.
 [[nodiscard]] nlohmann::json sheetState(const engine::Engine& engine, const sheet::Workbook& workbook,
                                         const sheet::Sheet& sheet, StyleDetail detail = StyleDetail::All);

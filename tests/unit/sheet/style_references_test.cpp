@@ -21,6 +21,7 @@ Workbook namingWorkbook() {
     sheet.style["clip.shape"] = std::string(" b1 > 0.4");
     sheet.columnHeaders[1].style["layers"] = std::string("A1; 'd1; B1' ;Sheet1!B1");
     sheet.rowHeaders[1].style["isosurface.colorBy"] = std::string("B1");
+    sheet.rowHeaders[1].style["overlay.dataset"] = std::string("B1");
     sheet.cells[{0, 0}].style["clip.shape"] = std::string("'d2' <= -1");
     Sheet other;
     other.name = "Other";
@@ -37,6 +38,7 @@ TEST(StyleReferences, FollowAMovedCellFromEveryLayer) {
     EXPECT_EQ(textOf(sheet.style, "clip.shape"), " C4 > 0.4");
     EXPECT_EQ(textOf(sheet.columnHeaders.at(1).style, "layers"), "A1; 'd1; B1' ;Sheet1!C4");
     EXPECT_EQ(textOf(sheet.rowHeaders.at(1).style, "isosurface.colorBy"), "C4");
+    EXPECT_EQ(textOf(sheet.rowHeaders.at(1).style, "overlay.dataset"), "C4");
     EXPECT_EQ(textOf(sheet.cells.at({0, 0}).style, "clip.shape"), "'d2' <= -1");
     EXPECT_EQ(textOf(moved.sheets[1].style, "clip.shape"), "Sheet1!C4 >= 2");
     EXPECT_EQ(textOf(moved.sheets[1].columnHeaders.at(0).style, "isosurface.colorBy"), "B1")

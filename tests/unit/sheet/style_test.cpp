@@ -263,7 +263,8 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
                                        0.25,
                                        PlaneInterpolation::Nearest,
                                        std::nullopt,
-                                       PlaneUnits::Fraction}));
+                                       PlaneUnits::Fraction,
+                                       {1, 1, 1}}));
     sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"plane.crosshair", {3, 4.5, -6}},
                                                            {"plane.units", "world"},
                                                            {"camera.frame", "centre"}});
@@ -275,6 +276,34 @@ TEST(Style, PlaneKeysReachTheTypedStyle) {
         {{"plane.position", 1.5}}, {{"plane.axis", "x"}}, {{"plane.normal", {1, 2}}}};
     for (const nlohmann::json& wrong : refused)
         EXPECT_THROW(parseStyleMap(testKeys(), wrong), InvalidInput) << wrong.dump();
+}
+
+TEST(Style, LabelAndOverlayKeysReachTheTypedStyle) {
+    Workbook workbook = filledWorkbook(1, 1);
+    Sheet& sheet = workbook.sheets[0];
+    EXPECT_EQ(resolveStyle(testKeys(), sheet, {0, 0}).style.labels, LabelsStyle{});
+    sheet.style = parseStyleMap(testKeys(), nlohmann::json{{"labels.show", "on"},
+                                                           {"labels.names", "1: liver"},
+                                                           {"labels.hide", {{2}, {5}}},
+                                                           {"labels.opacity", 0.5},
+                                                           {"overlay.dataset", "B1"},
+                                                           {"overlay.map", "labels"},
+                                                           {"overlay.opacity", 0.25},
+                                                           {"overlay.threshold", -3},
+                                                           {"overlay.min", 1},
+                                                           {"overlay.max", 4}});
+    TypedStyle style = resolveStyle(testKeys(), sheet, {0, 0}).style;
+    EXPECT_EQ(style.labels, (LabelsStyle{true, "1: liver", {2, 5}, 0.5}));
+    EXPECT_EQ(style.overlay, (OverlayStyle{"B1", "labels", 0.25, -3.0, 1.0, 4.0}));
+    EXPECT_NO_THROW(requireConsistent(style));
+    style.overlay.max = 1.0;
+    EXPECT_EQ(refusedField(style), "overlay.min");
+    style.overlay.max = std::nullopt;
+    style.labels.names = "liver";
+    EXPECT_EQ(refusedField(style), "labels.names");
+    for (const char* refused :
+         {"labels.show=1", "labels.opacity=2", "overlay.opacity=-1", "overlay.map=nothing"})
+        EXPECT_THROW((void)parseAssignment(testKeys(), refused), InvalidInput) << refused;
 }
 
 TEST(Style, PeriodsAreWholeNumbers) {
@@ -327,6 +356,13 @@ TEST(Style, DegenerateClipsPlanesAndLightsAreRefused) {
     EXPECT_NO_THROW(requireConsistent(style)) << "not in use";
     style.plane.axis = PlaneAxis::Custom;
     EXPECT_EQ(refusedField(style), "plane.normal");
+    style.plane.axis = PlaneAxis::Hkl;
+    EXPECT_NO_THROW(requireConsistent(style));
+    for (const glm::dvec3 hkl : {glm::dvec3(0.0), glm::dvec3(1.0, 0.5, 0.0)}) {
+        style.plane.hkl = hkl;
+        EXPECT_EQ(refusedField(style), "plane.hkl");
+    }
+    EXPECT_THROW((void)parseAssignment(testKeys(), "plane.hkl=100,0,0"), InvalidInput);
 }
 
 } // namespace

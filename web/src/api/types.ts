@@ -213,13 +213,23 @@ export interface ColourBarInfo {
     /** Where another volume colours the surfaces: that one's bar. */
     colouredBy?: ColourBarInfo | null;
     ticks: ColourBarTick[];
-    /** Volumes that are blended into the picture. */
+    /** Of a label map: its legend. */
+    labels?: LegendLabel[] | null;
+    /** Volumes that are blended into the picture, or painted over a plane. */
     layers?: LayerBar[];
+}
+
+export interface LegendLabel {
+    value: number;
+    name: string;
+    colour: [number, number, number];
+    hidden: boolean;
 }
 
 export interface LayerBar {
     name: string;
     weight: number;
+    labels?: LegendLabel[] | null;
     stops: [number, number, number, number, number][];
     low: number;
     high: number;
@@ -237,11 +247,13 @@ export interface ProbeAnswer {
 export interface ProbeValue {
     cell: string;
     value: number | null;
+    /** What a label map calls the value. */
+    label?: string | null;
     index?: number[];
     unit?: string;
     note?: string;
     /** Of the volumes that are blended into the cell's picture. */
-    layers?: { name: string; value: number | null; unit?: string; note?: string }[];
+    layers?: { name: string; value: number | null; label?: string | null; unit?: string; note?: string }[];
 }
 
 export type LayerTarget =

@@ -84,7 +84,7 @@ export class PlaneActions {
         const centre = boxCentre(shown.box);
         const position = this.styles.shownValue(cell, "plane.position");
         if (!isPlane(shown) || typeof position !== "number") return centre;
-        const normal = planeNormal((name) => this.styles.shownValue(cell, name));
+        const normal = planeNormal(shown.box, (name) => this.styles.shownValue(cell, name));
         const { low, high } = extentAlong(shown.box, normal);
         return add(centre, scaled(normal, low + position * (high - low) - dot(normal, centre)));
     }

@@ -65,11 +65,13 @@ export const naturalOrder = new Intl.Collator(undefined, { numeric: true, sensit
 
 interface Probed {
     value: number | null;
+    label?: string | null;
     unit?: string;
     note?: string;
 }
 
-function probedText({ value, unit, note }: Probed): string {
+function probedText({ value, label, unit, note }: Probed): string {
+    if (label && value !== null) return label === String(value) ? label : `${label} (${formatNumber(value)})`;
     return value === null ? note || "no value" : withUnit(formatNumber(value), unit);
 }
 

@@ -2,6 +2,7 @@
 import type { CellState, StylePatch, StyleValue } from "../api/types";
 import { isFinite3 } from "./camera";
 import { crosshairPoint, crosshairValue, unitsOf } from "./crosshair";
+import { reciprocalVector } from "./lattice";
 import { isPlane } from "./plane_view";
 import { add, cross, dot, length, normalized, scaled, type Matrix, type Vector } from "./vector";
 import { extentAlong, pointAt, type VolumeBox } from "./volume_box";
@@ -17,8 +18,12 @@ const axisNumber: Record<string, 0 | 1 | 2> = { sagittal: 0, coronal: 1, axial: 
 export type ShownValue = (key: string) => StyleValue | undefined;
 
 /** The side to which positions rise; of unit length. */
-export function planeNormal(shown: ShownValue): Vector {
+export function planeNormal(box: VolumeBox, shown: ShownValue): Vector {
     const axis = shown("plane.axis");
+    if (axis === "hkl") {
+        const across = reciprocalVector(box.lattice, shown("plane.hkl"));
+        return across ? normalized(across) : worldAxes[2];
+    }
     if (axis !== "custom") return worldAxes[axisNumber[String(axis)] ?? 2];
     const normal = shown("plane.normal");
     return isFinite3(normal) && length(normal) > 0 ? normalized(normal) : worldAxes[2];
@@ -26,7 +31,7 @@ export function planeNormal(shown: ShownValue): Vector {
 
 /** Distances along the normal at which the plane may stand, one step apart. */
 interface Steps {
-    /** Of one plane of samples; null: the normal is oblique to them, and every place is as good. */
+    /** Of one plane of samples, or of the lattice; null: the normal is oblique to them, and every place is as good. */
     sample: number | null;
     step: number;
 }
@@ -48,10 +53,23 @@ function layeredAxis(box: VolumeBox, direction: Vector): number {
     return [cross(b, c), cross(c, a), cross(a, b)].findIndex((face) => length(cross(normalized(face), direction)) < 1e-6);
 }
 
-function stepsAlong(box: VolumeBox, normal: Vector): Steps | null {
+/** The whole number of steps nearest to a voxel's between neighbouring planes of the set, one of them through a lattice point. */
+function latticeSteps(box: VolumeBox, shown: ShownValue, oneVoxel: number): Steps | null {
+    const across = reciprocalVector(box.lattice, shown("plane.hkl"));
+    if (!across) return null;
+    const spacing = 1 / length(across);
+    const shift = shown("periodic.shift");
+    const periods = shown("periodic.replicate");
+    const fractions = [0, 1, 2].map((axis) => (isFinite3(shift) ? shift[axis]! : 0) / (isFinite3(periods) ? periods[axis]! : 1));
+    const point = pointAt(box, fractions as unknown as Vector);
+    return { sample: dot(normalized(across), point), step: spacing / Math.max(1, Math.round(spacing / oneVoxel)) };
+}
+
+function stepsAlong(box: VolumeBox, normal: Vector, shown: ShownValue): Steps | null {
     const { voxels, firstSample } = box;
     if (!voxels || !firstSample) return null;
     const indices = indicesAlong(box, voxels, normal);
+    if (shown("plane.axis") === "hkl") return latticeSteps(box, shown, 1 / Math.max(...indices.map(Math.abs)));
     const axis = layeredAxis(box, normal);
     if (axis < 0) return { sample: null, step: 1 / Math.max(...indices.map(Math.abs)) };
     const first = pointAt(box, [firstSample[0] / voxels[0], firstSample[1] / voxels[1], firstSample[2] / voxels[2]]);
@@ -94,7 +112,7 @@ function placed(cell: CellState | undefined, shown: ShownValue): Placed | null {
     const box = cell?.box;
     const position = shown("plane.position");
     if (!box || !isPlane(cell) || cell.state !== "ok" || typeof position !== "number") return null;
-    const normal = planeNormal(shown);
+    const normal = planeNormal(box, shown);
     const { low, high } = extentAlong(box, normal);
     if (high <= low) return null;
     const crosshair = crosshairPoint(box, shown("plane.crosshair"), unitsOf(shown("plane.units")));
@@ -110,7 +128,7 @@ function placedAt({ box, normal, low, high, offset, crosshair }: Placed, shown: 
 /** \param by  voxels along the plane's normal. null: the cell shows no plane, or cannot go on */
 export function steppedPlane(cell: CellState | undefined, shown: ShownValue, by: number): StylePatch | null {
     const place = placed(cell, shown);
-    const steps = place && stepsAlong(place.box, place.normal);
+    const steps = place && stepsAlong(place.box, place.normal, shown);
     if (!place || !steps) return null;
     const next = steppedOffset(place.offset, by, steps, place.low, place.high);
     return Math.abs(next - place.offset) < tolerance * steps.step ? null : placedAt(place, shown, next);

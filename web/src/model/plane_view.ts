@@ -2,6 +2,7 @@
 // nothing there.
 import type { CellState } from "../api/types";
 import { cameraBasis, isFinite3, type Basis, type Camera, type FlatView } from "./camera";
+import { reciprocalVector } from "./lattice";
 import { ownFrame, pictureView, type PictureView } from "./projection";
 import { add, cross, length, normalized, scaled, type Vector } from "./vector";
 import { extentAlong } from "./volume_box";
@@ -40,6 +41,8 @@ export function planeBasis(cell: CellState): Basis {
             return basisOf(mirrored(y), z);
         case "custom":
             return customBasis(isFinite3(normal) ? normal : z);
+        case "hkl":
+            return customBasis(reciprocalVector(cell.box?.lattice, cell.style["plane.hkl"]?.value) ?? z);
         default:
             return basisOf(mirrored(x), y);
     }

@@ -28,7 +28,7 @@ export function suggestionsFor(
         const compared = middle === null ? [] : [{ text: `${active} > ${middle}`, hint: "where it is so" }];
         return [...none, ...shapes, ...meshes, ...compared];
     }
-    if (key.name === "isosurface.colorBy" || key.name === "layers") {
+    if (key.name === "isosurface.colorBy" || key.name === "layers" || key.name === "overlay.dataset") {
         const others = drawn.filter((cell) => cell.cell !== active).map((cell) => ({ text: cell.cell, hint: cell.title ?? "cell" }));
         const volumes = datasets.filter((dataset) => dataset.state === "ready").map(({ name }) => ({ text: name, hint: "dataset" }));
         return [...none, ...others, ...volumes];

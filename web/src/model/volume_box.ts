@@ -10,6 +10,8 @@ export interface VolumeBox {
     voxels?: Vector;
     /** And how many voxels from the first corner the first sample sits. */
     firstSample?: Vector;
+    /** Of crystals: the vectors a, b, c that Miller indices refer to. */
+    lattice?: Matrix;
 }
 
 /** The corners' numbers: bit 0, 1, 2 set means at the far end of axis 0, 1, 2. */

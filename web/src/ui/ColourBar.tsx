@@ -1,5 +1,5 @@
 // Which colour means which value: in each tile, or once in the column's header where the range is shared.
-import type { ColourBarInfo, LayerBar } from "../api/types";
+import type { ColourBarInfo, LayerBar, LegendLabel } from "../api/types";
 import { formatNumber, formatUnit, withUnit } from "../model/format";
 import { isovalueHandles, isovaluesOf } from "../model/isovalues";
 import type { Scale } from "../model/transfer";
@@ -55,8 +55,17 @@ export function ColourBar({ cell }: { cell: string }) {
         return annotations === undefined || annotations === "all";
     });
     const enlarged = useSelect((state) => state.page.enlarged === cell);
+    const flat = useSelect((state) => cellOf(currentSheet(state.book), cell)?.style["technique"]?.value === "plane");
     if (!own || !bar || !shown) return null;
-    const layers = <LayerBars layers={own.layers ?? []} />;
+    const layers = <LayerBars layers={own.layers ?? []} word={flat ? "overlay" : "fused with"} />;
+    if (own.labels) {
+        return (
+            <>
+                {layers}
+                <Legend labels={own.labels} title={`Labels of ${cell}`} />
+            </>
+        );
+    }
     if (bar.shared && !enlarged) return layers;
     return (
         <>
@@ -84,18 +93,41 @@ export function ColourBar({ cell }: { cell: string }) {
     );
 }
 
-/** What is blended into the picture, and which colours it has. */
-function LayerBars({ layers }: { layers: readonly LayerBar[] }) {
+/** What the colours of a label map mean. */
+function Legend({ labels, title }: { labels: readonly LegendLabel[]; title: string }) {
+    return (
+        <ul class="label-legend" aria-label={title}>
+            {labels
+                .filter(({ hidden }) => !hidden)
+                .map(({ value, name, colour }) => (
+                    <li key={value} title={`${name}: ${value}`}>
+                        {name}
+                        <i style={{ background: cssColour([...colour, 1]) }} />
+                    </li>
+                ))}
+        </ul>
+    );
+}
+
+/** What is blended into the picture or painted over it, and which colours it has. */
+function LayerBars({ layers, word }: { layers: readonly LayerBar[]; word: string }) {
     if (layers.length === 0) return null;
     return (
         <div class="layer-bars">
-            <span>fused with</span>
-            {layers.map((layer, index) => (
+            <span>{word}</span>
+            {layers.map((layer, index) =>
+                layer.labels ? (
+                    <span key={index}>
+                        {layer.name}
+                        <Legend labels={layer.labels} title={`Labels of layer ${layer.name}`} />
+                    </span>
+                ) : (
                 <span key={index} role="img" aria-label={`Colour bar of layer ${layer.name}: ${describeRange(layer)}`} title={describeRange(layer)}>
                     {layer.name}
                     <i style={{ background: gradient(layer.stops, "to right") }} />
                 </span>
-            ))}
+                ),
+            )}
         </div>
     );
 }
