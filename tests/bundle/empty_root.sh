@@ -16,7 +16,7 @@ user=()
 
 work="$(mktemp -d)"
 server=
-trap '[ -z "$server" ] || kill "$server" 2>/dev/null || true; rm -rf "$work"' EXIT
+trap '[ -z "$server" ] || kill -KILL -- "-$server" 2>/dev/null || true; rm -rf "$work"' EXIT
 chmod 755 "$work"
 root="$work/root"
 mkdir -p "$root"/{proc,dev,tmp,some/where/else}
@@ -57,8 +57,10 @@ in_root "$launcher" render /ramp.nrrd -o /tmp/inside.png "${look[@]}" || fail "r
 cmp "$root/tmp/inside.png" "$work/outside.png" || fail "the bundle draws another picture than the program that it is made of"
 [ "$(stat -c %s "$work/outside.png")" -gt 3000 ] || fail "the picture is empty"
 
+set -m # a process group of its own, so that no part of it outlives this test
 in_root "$launcher" serve /ramp.nrrd --port 0 --no-token >"$work/ready" 2>"$work/log" &
 server=$!
+set +m
 for _ in $(seq 300); do
     [ ! -s "$work/ready" ] || break
     sleep 0.2

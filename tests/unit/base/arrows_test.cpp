@@ -33,6 +33,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
         {"stream", {"engine"}},
         {"http", {"stream", "embedded"}}, // embedded: the page (web/)
         {"cli", {"http", "bench"}},
+        {"launcher", {}}, // starts the others on machines that have nothing
     };
     return table;
 }
