@@ -129,7 +129,7 @@ void Texture::setWrap(GLenum wrapS, GLenum wrapT, GLenum wrapR) {
 }
 
 void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, GLenum format, GLenum type,
-                     std::span<const std::byte> texels) {
+                     std::span<const std::byte> texels) const {
     const int axes = axesOf(target_);
     const std::size_t count = static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y) *
                               static_cast<std::size_t>(extent.z);
@@ -148,6 +148,13 @@ void Texture::upload(glm::ivec3 offset, glm::ivec3 extent, GLenum format, GLenum
                             texels.data());
     }
     name_.context().checkErrors("upload into " + describe(axes, size_));
+}
+
+void Texture::download(int firstRow, int endRow, GLenum format, GLenum type,
+                       std::span<std::byte> texels) const {
+    glGetTextureSubImage(name_.id(), 0, 0, firstRow, 0, size_.x, endRow - firstRow, 1, format, type,
+                         static_cast<GLsizei>(texels.size()), texels.data());
+    name_.context().checkErrors("reading " + describe(axesOf(target_), size_));
 }
 
 void Texture::clear(const glm::vec4& value) {

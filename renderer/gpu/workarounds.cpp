@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "gpu/egl_context.h"
 
+#include <algorithm>
 #include <array>
 
 namespace voxsheet::gpu {
@@ -18,6 +19,7 @@ constexpr std::array kKnown{
     Named{"clear-before-compute", &Workarounds::clearBeforeCompute},
     Named{"r8-as-r16", &Workarounds::r8AsR16},
     Named{"coarse-filter-weights", &Workarounds::coarseFilterWeights},
+    Named{"simd-rays", &Workarounds::simdRays},
 };
 
 void switchOff(Workarounds& workarounds, std::string_view name) {
@@ -48,6 +50,7 @@ Workarounds workaroundsFor(std::string_view renderer, std::string_view disabled)
     if (renderer.find("llvmpipe") != std::string_view::npos) {
         workarounds.clearBeforeCompute = true;
         workarounds.r8AsR16 = true;
+        workarounds.simdRays = true;
     }
     workarounds.coarseFilterWeights = !isSoftwareRenderer(std::string(renderer));
     while (!disabled.empty()) {
@@ -65,6 +68,13 @@ std::vector<std::string> workaroundNames(const Workarounds& workarounds) {
         if (workarounds.*candidate.member) names.emplace_back(candidate.name);
     }
     return names;
+}
+
+Workarounds workaroundsNamed(const std::vector<std::string>& names) {
+    Workarounds workarounds;
+    for (const Named& candidate : kKnown)
+        workarounds.*candidate.member = std::find(names.begin(), names.end(), candidate.name) != names.end();
+    return workarounds;
 }
 
 } // namespace voxsheet::gpu

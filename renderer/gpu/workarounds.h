@@ -20,6 +20,10 @@ struct Workarounds {
     /// of their own.
     bool coarseFilterWeights = false;
 
+    /// "simd-rays": llvmpipe gathers every texel and every uniform lane by lane; rays are marched by kernels
+    /// of our own instead (simd/kernels.h), which read volumes from host memory.
+    bool simdRays = false;
+
     bool operator==(const Workarounds&) const = default;
 };
 
@@ -28,5 +32,7 @@ struct Workarounds {
 [[nodiscard]] Workarounds workaroundsFor(std::string_view renderer, std::string_view disabled);
 
 [[nodiscard]] std::vector<std::string> workaroundNames(const Workarounds& workarounds);
+/// The inverse; other names are left out.
+[[nodiscard]] Workarounds workaroundsNamed(const std::vector<std::string>& names);
 
 } // namespace voxsheet::gpu

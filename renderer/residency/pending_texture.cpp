@@ -15,7 +15,7 @@ constexpr long kGradientsPerStep = 1L << 17;
 PendingTexture::PendingTexture(const VolumeProvider& provider, const TextureKey& key, bool exactR8Filtering,
                                FloatTexels floatTexels, bool clipObject)
     : key_(key), clipObject_(clipObject) {
-    upload_.emplace(provider, key.volume, exactR8Filtering, floatTexels);
+    upload_.emplace(provider, key.volume, exactR8Filtering, floatTexels, isOnHost(key.kind));
     bytes_ = upload_->bytes();
     meta_ = upload_->volume().meta;
     dims_ = upload_->volume().dims;
@@ -40,15 +40,16 @@ bool PendingTexture::exceedsDevice(const gpu::Context& context) const {
 
 void PendingTexture::begin(gpu::Context& context) {
     if (upload_) {
-        texture_.emplace(upload_->createTexture(context));
-        return;
+        texture_ = upload_->begin(context);
+    } else {
+        texture_.emplace(context, GL_TEXTURE_3D, GL_RGBA16F, dims_);
+        setVolumeSampling(*texture_, meta_->grid);
     }
-    texture_.emplace(context, GL_TEXTURE_3D, GL_RGBA16F, dims_);
-    setVolumeSampling(*texture_, meta_->grid);
+    begun_ = true;
 }
 
 bool PendingTexture::advance(Deadline deadline, SliceReader& reader, const ResidentVolume* source) {
-    if (upload_) return upload_->advance(*texture_, reader, deadline);
+    if (upload_) return upload_->advance(texture_, reader, deadline);
     const auto start = std::chrono::steady_clock::now();
     source_ = *source;
     const long sliceTexels = static_cast<long>(dims_.x) * dims_.y;
@@ -68,7 +69,7 @@ std::shared_ptr<TextureEntry> PendingTexture::finish() {
     entry->texture = std::move(texture_);
     texture_.reset();
     entry->volume = upload_ ? upload_->volume() : source_;
-    entry->volume.texture = &*entry->texture;
+    entry->volume.texture = entry->texture ? &*entry->texture : nullptr;
     entry->bytes = bytes_;
     entry->clipObject = clipObject_;
     entry->uploadMs = upload_ ? upload_->uploadMs() : buildMs_;

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::uint64_t remainingBytes() const;
     [[nodiscard]] bool exceedsDevice(const gpu::Context& context) const;
 
-    [[nodiscard]] bool begun() const { return texture_.has_value(); } ///< its texture takes bytes() by now
+    [[nodiscard]] bool begun() const { return begun_; } ///< its texture takes bytes() by now
     /// Throws LimitExceeded when the device has no room.
     void begin(gpu::Context& context);
     /// Samples: as VolumeUpload::advance. Gradients: at least one step, then as many as begin before the
@@ -49,7 +49,8 @@ private:
     int nextSlice_ = 0; ///< of gradients
     double buildMs_ = 0.0;
     ResidentVolume source_;
-    std::optional<gpu::Texture> texture_;
+    bool begun_ = false;
+    std::optional<gpu::Texture> texture_; ///< none where texels stay on the host
 };
 
 } // namespace voxsheet

@@ -46,30 +46,30 @@ ResidencyManager::~ResidencyManager() = default;
 
 // --- at any price ---
 
-VolumeLease ResidencyManager::acquire(const VolumeKey& key, FloatTexels floatTexels, SamplesUse use) {
-    return *acquireBy(Deadline::max(), key, floatTexels, use);
+VolumeLease ResidencyManager::acquire(const VolumeKey& key, TexelForm form, SamplesUse use) {
+    return *acquireBy(Deadline::max(), key, form, use);
 }
 
-VolumeLease ResidencyManager::acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
+VolumeLease ResidencyManager::acquireGradients(const VolumeKey& key, TexelForm form,
                                                const DerivedTextureBuilder& build) {
-    return *acquireGradientsBy(Deadline::max(), key, floatTexels, build);
+    return *acquireGradientsBy(Deadline::max(), key, form, build);
 }
 
 std::optional<VolumeLease> ResidencyManager::acquireBy(Deadline deadline, const VolumeKey& key,
-                                                       FloatTexels floatTexels, SamplesUse use) {
-    const TextureKey textureKey{key, samplesKind(floatTexels)};
+                                                       TexelForm form, SamplesUse use) {
+    const TextureKey textureKey{key, kindOf(form)};
     if (auto resident = leaseResident(textureKey, use)) return resident;
-    auto& pending = enqueueSamples(textureKey, floatTexels, use, WantedPriority::Visible);
+    auto& pending = enqueueSamples(textureKey, form, use, WantedPriority::Visible);
     if (!advanceToLease(pending, deadline, nullptr)) return std::nullopt;
     return leaseResident(textureKey, use);
 }
 
 std::optional<VolumeLease> ResidencyManager::acquireGradientsBy(Deadline deadline, const VolumeKey& key,
-                                                                FloatTexels floatTexels,
+                                                                TexelForm form,
                                                                 const DerivedTextureBuilder& build) {
-    const TextureKey textureKey{key, gradientsKind(floatTexels)};
+    const TextureKey textureKey{key, gradientsKind(form.floats)};
     if (auto resident = leaseResident(textureKey, SamplesUse::Drawing)) return resident;
-    const auto source = acquireBy(deadline, key, floatTexels);
+    const auto source = acquireBy(deadline, key, form);
     if (!source) return std::nullopt;
     auto* pending = findPending(textureKey);
     if (pending == nullptr) {
@@ -118,31 +118,29 @@ std::optional<VolumeLease> ResidencyManager::leaseResident(const TextureKey& key
     return VolumeLease(std::move(entry));
 }
 
-std::optional<VolumeLease> ResidencyManager::acquireResident(const VolumeKey& key, FloatTexels floatTexels,
+std::optional<VolumeLease> ResidencyManager::acquireResident(const VolumeKey& key, TexelForm form,
                                                              SamplesUse use) {
-    return leaseResident({key, samplesKind(floatTexels)}, use);
+    return leaseResident({key, kindOf(form)}, use);
 }
 
-std::optional<VolumeLease> ResidencyManager::acquireResidentGradients(const VolumeKey& key,
-                                                                      FloatTexels floatTexels) {
-    return leaseResident({key, gradientsKind(floatTexels)}, SamplesUse::Drawing);
+std::optional<VolumeLease> ResidencyManager::acquireResidentGradients(const VolumeKey& key, TexelForm form) {
+    return leaseResident({key, gradientsKind(form.floats)}, SamplesUse::Drawing);
 }
 
-bool ResidencyManager::isResident(const VolumeKey& key, FloatTexels floatTexels) const {
-    return table_->contains({key, samplesKind(floatTexels)});
+bool ResidencyManager::isResident(const VolumeKey& key, TexelForm form) const {
+    return table_->contains({key, kindOf(form)});
 }
 
-bool ResidencyManager::areGradientsResident(const VolumeKey& key, FloatTexels floatTexels) const {
-    return table_->contains({key, gradientsKind(floatTexels)});
+bool ResidencyManager::areGradientsResident(const VolumeKey& key, TexelForm form) const {
+    return table_->contains({key, gradientsKind(form.floats)});
 }
 
-std::optional<int> ResidencyManager::nearestResidentLevel(const VolumeKey& key,
-                                                          FloatTexels floatTexels) const {
+std::optional<int> ResidencyManager::nearestResidentLevel(const VolumeKey& key, TexelForm form) const {
     const int levels = provider_->describe(key.dataset)->levels();
     std::optional<int> nearest;
     VolumeKey at = key;
     for (at.level = 0; at.level < levels; ++at.level) {
-        if (!isResident(at, floatTexels)) continue;
+        if (!isResident(at, form)) continue;
         if (!nearest || std::abs(at.level - key.level) < std::abs(*nearest - key.level)) nearest = at.level;
     }
     return nearest;
@@ -162,10 +160,10 @@ void ResidencyManager::setWanted(const std::vector<WantedVolume>& wanted) {
         pending->priority = std::max(WantedPriority::Soon, table_->priority(pending->key().volume));
     for (const WantedPriority priority : {WantedPriority::Visible, WantedPriority::Soon}) {
         for (const auto& volume : wanted) {
-            if (volume.priority != priority || isResident(volume.key, volume.floatTexels)) continue;
+            if (volume.priority != priority || isResident(volume.key, volume.form)) continue;
             try {
-                keepIfRoom(enqueueSamples({volume.key, samplesKind(volume.floatTexels)}, volume.floatTexels,
-                                          SamplesUse::Drawing, priority));
+                keepIfRoom(enqueueSamples({volume.key, kindOf(volume.form)}, volume.form, SamplesUse::Drawing,
+                                          priority));
             } catch (const NotFound&) {
                 continue; // It was removed since: whoever draws it says so.
             }
@@ -173,19 +171,18 @@ void ResidencyManager::setWanted(const std::vector<WantedVolume>& wanted) {
     }
 }
 
-bool ResidencyManager::request(const VolumeKey& key, FloatTexels floatTexels, SamplesUse use) {
-    if (isResident(key, floatTexels)) return true;
-    auto& pending =
-        enqueueSamples({key, samplesKind(floatTexels)}, floatTexels, use, WantedPriority::Visible);
+bool ResidencyManager::request(const VolumeKey& key, TexelForm form, SamplesUse use) {
+    if (isResident(key, form)) return true;
+    auto& pending = enqueueSamples({key, kindOf(form)}, form, use, WantedPriority::Visible);
     ++pending.asked;
     return keepIfRoom(pending);
 }
 
-bool ResidencyManager::requestGradients(const VolumeKey& key, FloatTexels floatTexels,
+bool ResidencyManager::requestGradients(const VolumeKey& key, TexelForm form,
                                         const DerivedTextureBuilder& build) {
-    const TextureKey textureKey{key, gradientsKind(floatTexels)};
+    const TextureKey textureKey{key, gradientsKind(form.floats)};
     if (table_->contains(textureKey)) return true;
-    if (!request(key, floatTexels)) return false;
+    if (!request(key, form)) return false;
     auto* pending = findPending(textureKey);
     if (pending == nullptr) {
         pending =
@@ -241,14 +238,14 @@ PendingTexture& ResidencyManager::enqueue(std::unique_ptr<PendingTexture> pendin
     return *queue_.emplace_back(std::move(pending));
 }
 
-PendingTexture& ResidencyManager::enqueueSamples(const TextureKey& key, FloatTexels floatTexels,
-                                                 SamplesUse use, WantedPriority priority) {
+PendingTexture& ResidencyManager::enqueueSamples(const TextureKey& key, TexelForm form, SamplesUse use,
+                                                 WantedPriority priority) {
     if (auto* known = findPending(key)) {
         known->priority = std::max(known->priority, priority);
         return *known;
     }
-    return enqueue(std::make_unique<PendingTexture>(*provider_, key, !context_.workarounds().r8AsR16,
-                                                    floatTexels, use == SamplesUse::Clipping),
+    return enqueue(std::make_unique<PendingTexture>(*provider_, key, !workarounds().r8AsR16, form.floats,
+                                                    use == SamplesUse::Clipping),
                    priority);
 }
 
@@ -334,8 +331,8 @@ bool ResidencyManager::evictOne(std::optional<WantedPriority> below, const Pendi
 
 // --- what it would take ---
 
-std::uint64_t ResidencyManager::bytesOf(const VolumeKey& key, FloatTexels floatTexels) const {
-    return VolumeUpload(*provider_, key, !context_.workarounds().r8AsR16, floatTexels).bytes();
+std::uint64_t ResidencyManager::bytesOf(const VolumeKey& key, TexelForm form) const {
+    return VolumeUpload(*provider_, key, !workarounds().r8AsR16, form.floats, isOnHost(kindOf(form))).bytes();
 }
 
 std::uint64_t ResidencyManager::gradientBytesOf(const VolumeKey& key) const {
@@ -353,6 +350,12 @@ void ResidencyManager::forget(const std::string& dataset) {
     table_->removeDataset(dataset);
     std::erase_if(queue_, [&](const auto& pending) { return pending->key().volume.dataset == dataset; });
 }
+
+TextureKind ResidencyManager::kindOf(TexelForm form) const {
+    return samplesKind(form.floats, form.forRays && workarounds().simdRays);
+}
+
+const gpu::Workarounds& ResidencyManager::workarounds() const { return context_.workarounds(); }
 
 ResidencyState ResidencyManager::state() const {
     ResidencyState state = totals_;

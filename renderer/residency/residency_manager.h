@@ -4,6 +4,7 @@
 // own reads them, so that none waits for a disk.
 #pragma once
 
+#include "gpu/workarounds.h"
 #include "residency/residency_state.h"
 #include "residency/resident_volume.h"
 #include "residency/wanted_volume.h"
@@ -25,6 +26,7 @@ class PendingTexture;
 class SliceReader;
 class TextureTable;
 struct TextureKey;
+enum class TextureKind;
 
 using Deadline = std::chrono::steady_clock::time_point;
 
@@ -49,33 +51,30 @@ public:
     /// Throws what the provider throws; NotFound for a field, step or level that the dataset does not have;
     /// LimitExceeded when the volume alone, or with the leased ones, breaks the budget or the device's
     /// limits.
-    [[nodiscard]] VolumeLease acquire(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full,
+    [[nodiscard]] VolumeLease acquire(const VolumeKey& key, TexelForm form = {},
                                       SamplesUse use = SamplesUse::Drawing);
     /// The gradient texture of a volume: the lease's volume() is as acquire() gives it but for `texture`.
     /// Built by `build` when it is not resident; the volume itself is then made resident too. Throws as
     /// acquire.
-    [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, FloatTexels floatTexels,
+    [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, TexelForm form,
                                                const DerivedTextureBuilder& build);
     /// As acquire and acquireGradients, but stops at the deadline, waiting for a disk or not: empty as long
     /// as it must be called again.
     [[nodiscard]] std::optional<VolumeLease> acquireBy(Deadline deadline, const VolumeKey& key,
-                                                       FloatTexels floatTexels = FloatTexels::Full,
+                                                       TexelForm form = {},
                                                        SamplesUse use = SamplesUse::Drawing);
     [[nodiscard]] std::optional<VolumeLease> acquireGradientsBy(Deadline deadline, const VolumeKey& key,
-                                                                FloatTexels floatTexels,
+                                                                TexelForm form,
                                                                 const DerivedTextureBuilder& build);
 
     // --- only if it is there ---
-    [[nodiscard]] std::optional<VolumeLease> acquireResident(const VolumeKey& key,
-                                                             FloatTexels floatTexels = FloatTexels::Full,
+    [[nodiscard]] std::optional<VolumeLease> acquireResident(const VolumeKey& key, TexelForm form = {},
                                                              SamplesUse use = SamplesUse::Drawing);
-    [[nodiscard]] std::optional<VolumeLease> acquireResidentGradients(const VolumeKey& key,
-                                                                      FloatTexels floatTexels);
-    [[nodiscard]] bool isResident(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full) const;
-    [[nodiscard]] bool areGradientsResident(const VolumeKey& key, FloatTexels floatTexels) const;
+    [[nodiscard]] std::optional<VolumeLease> acquireResidentGradients(const VolumeKey& key, TexelForm form);
+    [[nodiscard]] bool isResident(const VolumeKey& key, TexelForm form = {}) const;
+    [[nodiscard]] bool areGradientsResident(const VolumeKey& key, TexelForm form) const;
     /// The resident level of the volume that is nearest to key.level; of two, the finer one.
-    [[nodiscard]] std::optional<int> nearestResidentLevel(const VolumeKey& key,
-                                                          FloatTexels floatTexels) const;
+    [[nodiscard]] std::optional<int> nearestResidentLevel(const VolumeKey& key, TexelForm form) const;
 
     // --- in the background: evicts only what is less wanted ---
     /// Replaces what is wanted; volumes of it that are not resident are queued, the visible ones first.
@@ -84,10 +83,9 @@ public:
     void setWanted(const std::vector<WantedVolume>& wanted);
     /// Queues an upload as wanted as what is visible. False when there is no room for it beside what is
     /// visible: asking again is of no use until something changes. Throws NotFound as acquire.
-    bool request(const VolumeKey& key, FloatTexels floatTexels = FloatTexels::Full,
-                 SamplesUse use = SamplesUse::Drawing);
+    bool request(const VolumeKey& key, TexelForm form = {}, SamplesUse use = SamplesUse::Drawing);
     /// Likewise; waits in the queue for the volume's own samples, which are queued too.
-    bool requestGradients(const VolumeKey& key, FloatTexels floatTexels, const DerivedTextureBuilder& build);
+    bool requestGradients(const VolumeKey& key, TexelForm form, const DerivedTextureBuilder& build);
     /// Works on the queue until the deadline, waiting for a disk if it has to. False when nothing is left to
     /// do. An upload that fails, or finds no room, leaves the queue.
     bool advance(Deadline deadline);
@@ -95,7 +93,7 @@ public:
 
     // --- what it would take ---
     /// Bytes of the texture. Throws NotFound as acquire.
-    [[nodiscard]] std::uint64_t bytesOf(const VolumeKey& key, FloatTexels floatTexels) const;
+    [[nodiscard]] std::uint64_t bytesOf(const VolumeKey& key, TexelForm form) const;
     [[nodiscard]] std::uint64_t gradientBytesOf(const VolumeKey& key) const;
     [[nodiscard]] std::uint64_t budgetBytes() const { return budgetBytes_; }
     [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const;
@@ -104,15 +102,18 @@ public:
     /// again.
     void forget(const std::string& dataset);
 
+    [[nodiscard]] const gpu::Workarounds& workarounds() const; ///< of its device
+
     [[nodiscard]] ResidencyState state() const;
 
 private:
+    [[nodiscard]] TextureKind kindOf(TexelForm form) const;
     using Queue = std::vector<std::unique_ptr<PendingTexture>>;
 
     [[nodiscard]] std::optional<VolumeLease> leaseResident(const TextureKey& key, SamplesUse use);
     [[nodiscard]] PendingTexture* findPending(const TextureKey& key) const;
     PendingTexture& enqueue(std::unique_ptr<PendingTexture> pending, WantedPriority priority);
-    PendingTexture& enqueueSamples(const TextureKey& key, FloatTexels floatTexels, SamplesUse use,
+    PendingTexture& enqueueSamples(const TextureKey& key, TexelForm form, SamplesUse use,
                                    WantedPriority priority);
     bool keepIfRoom(PendingTexture& pending);
     void dequeue(const PendingTexture& pending);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/texture.h"
+#include "volume/host_texels.h"
 #include "volume/volume_provider.h"
 
 #include <glm/glm.hpp>
@@ -13,9 +14,10 @@ namespace voxsheet {
 /// A volume that can be drawn. Texel centres: texture coordinate (i + 1/2) / dims; linear filter; REPEAT on
 /// periodic axes, else CLAMP_TO_EDGE (set on the texture itself).
 struct ResidentVolume {
-    const gpu::Texture* texture = nullptr; ///< GL_TEXTURE_3D, one channel, normalised or float
+    const gpu::Texture* texture = nullptr; ///< GL_TEXTURE_3D, one channel, normalised or float; or null
     double valueScale = 1.0; ///< value = valueScale * texel + valueOffset, slope and intercept included
     double valueOffset = 0.0;
+    std::shared_ptr<const HostTexels> host; ///< instead, for rays that the processor marches
     /// In values. Keep the pointer, not its address, when caching what was derived from it: an evicted
     /// volume's grid is freed, and another may take its address.
     std::shared_ptr<const MinMaxGrid> minMax;

@@ -8,8 +8,14 @@
 
 namespace voxsheet {
 
-TextureKind samplesKind(FloatTexels floatTexels) noexcept {
-    return floatTexels == FloatTexels::Full ? TextureKind::Samples : TextureKind::HalfSamples;
+TextureKind samplesKind(FloatTexels floatTexels, bool onHost) noexcept {
+    const bool full = floatTexels == FloatTexels::Full;
+    if (onHost) return full ? TextureKind::HostSamples : TextureKind::HalfHostSamples;
+    return full ? TextureKind::Samples : TextureKind::HalfSamples;
+}
+
+bool isOnHost(TextureKind kind) noexcept {
+    return kind == TextureKind::HostSamples || kind == TextureKind::HalfHostSamples;
 }
 
 TextureKind gradientsKind(FloatTexels floatTexels) noexcept {

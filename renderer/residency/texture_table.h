@@ -16,7 +16,8 @@
 
 namespace voxsheet {
 
-enum class TextureKind { Samples, HalfSamples, Gradients, HalfGradients };
+/// Samples on the host are held for rays, and are no textures though they count as such here.
+enum class TextureKind { Samples, HalfSamples, HostSamples, HalfHostSamples, Gradients, HalfGradients };
 
 struct TextureKey {
     VolumeKey volume;
@@ -25,9 +26,10 @@ struct TextureKey {
     auto operator<=>(const TextureKey&) const = default;
 };
 
-[[nodiscard]] TextureKind samplesKind(FloatTexels floatTexels) noexcept;
+[[nodiscard]] TextureKind samplesKind(FloatTexels floatTexels, bool onHost) noexcept;
 [[nodiscard]] TextureKind gradientsKind(FloatTexels floatTexels) noexcept;
 [[nodiscard]] bool isGradients(TextureKind kind) noexcept;
+[[nodiscard]] bool isOnHost(TextureKind kind) noexcept;
 
 struct TextureEntry {
     std::optional<gpu::Texture> texture;

@@ -67,8 +67,8 @@ void setVolumeSampling(gpu::Texture& texture, const Grid& grid) {
 }
 
 VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering,
-                           FloatTexels floatTexels)
-    : provider_(provider), key_(std::move(key)) {
+                           FloatTexels floatTexels, bool onHost)
+    : provider_(provider), key_(std::move(key)), onHost_(onHost) {
     volume_.meta = provider.describe(key_.dataset);
     validateVolumeKey(*volume_.meta, key_);
     const FieldMeta& field = volume_.meta->fields[static_cast<std::size_t>(key_.field)];
@@ -78,8 +78,9 @@ VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool e
     // Statistics are in values; a negative slope swaps the ends.
     const double atMin = (values.min - field.valueOffset) / field.valueScale;
     const double atMax = (values.max - field.valueOffset) / field.valueScale;
-    encoding_ = chooseTextureEncoding(type_, std::min(atMin, atMax), std::max(atMin, atMax), exactR8Filtering,
-                                      floatTexels);
+    // The kernels interpolate 8-bit samples exactly.
+    encoding_ = chooseTextureEncoding(type_, std::min(atMin, atMax), std::max(atMin, atMax),
+                                      exactR8Filtering || onHost, floatTexels);
     volume_.valueScale = field.valueScale * encoding_.storedScale;
     volume_.valueOffset = field.valueScale * encoding_.storedOffset + field.valueOffset;
     volume_.field = key_.field;
@@ -89,16 +90,24 @@ VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool e
 }
 
 std::uint64_t VolumeUpload::bytes() const {
+    if (onHost_) return HostTexels::bytesFor(encoding_.format, volume_.dims);
     return static_cast<std::uint64_t>(sampleCount(volume_.dims)) * texelFormatBytes(encoding_.format);
 }
 
 bool VolumeUpload::exceedsDevice(const gpu::Context& context) const {
+    if (onHost_) return !HostTexels::fits(volume_.dims);
     return std::max({volume_.dims.x, volume_.dims.y, volume_.dims.z}) > context.limits().textureSize3d;
 }
 
-gpu::Texture VolumeUpload::createTexture(gpu::Context& context) const {
-    gpu::Texture texture(context, GL_TEXTURE_3D, internalFormat(encoding_.format), volume_.dims);
-    setVolumeSampling(texture, volume_.meta->grid);
+std::optional<gpu::Texture> VolumeUpload::begin(gpu::Context& context) {
+    if (onHost_) {
+        host_ = std::make_shared<HostTexels>(encoding_.format, volume_.dims, volume_.meta->grid.periodic);
+        volume_.host = host_;
+        return std::nullopt;
+    }
+    std::optional<gpu::Texture> texture;
+    texture.emplace(context, GL_TEXTURE_3D, internalFormat(encoding_.format), volume_.dims);
+    setVolumeSampling(*texture, volume_.meta->grid);
     return texture;
 }
 
@@ -133,7 +142,7 @@ void VolumeUpload::askAhead(SliceReader& reader) {
     if (nextAsked_ == volume_.dims.z && !minMax_.valid()) minMax_ = reader.readMinMax(key_);
 }
 
-bool VolumeUpload::advance(gpu::Texture& texture, SliceReader& reader, Deadline deadline) {
+bool VolumeUpload::advance(std::optional<gpu::Texture>& texture, SliceReader& reader, Deadline deadline) {
     const auto arrived = [&](const auto& read) {
         const Stopwatch watch(readMs_);
         if (deadline == Deadline::max()) {
@@ -146,6 +155,7 @@ bool VolumeUpload::advance(gpu::Texture& texture, SliceReader& reader, Deadline 
         askAhead(reader);
         if (reads_.empty()) {
             if (!arrived(minMax_)) return false;
+            if (host_) host_->closeBorders();
             volume_.minMax = std::make_shared<const MinMaxGrid>(minMax_.get());
             return true;
         }
@@ -158,7 +168,7 @@ bool VolumeUpload::advance(gpu::Texture& texture, SliceReader& reader, Deadline 
     return false;
 }
 
-void VolumeUpload::uploadChunk(gpu::Texture& texture, const std::vector<std::byte>& stored) {
+void VolumeUpload::uploadChunk(std::optional<gpu::Texture>& texture, const std::vector<std::byte>& stored) {
     const std::size_t sliceSamples =
         static_cast<std::size_t>(volume_.dims.x) * static_cast<std::size_t>(volume_.dims.y);
     const bool verbatim = isVerbatim(type_, encoding_);
@@ -171,8 +181,12 @@ void VolumeUpload::uploadChunk(gpu::Texture& texture, const std::vector<std::byt
         encodeTexels(type_, encoding_, stored, texels_);
         upload = texels_;
     }
-    texture.upload({0, 0, nextSlice_}, {volume_.dims.x, volume_.dims.y, slices}, GL_RED,
-                   componentType(encoding_.format), upload);
+    if (host_) {
+        host_->setSlices(nextSlice_, slices, upload);
+    } else {
+        texture->upload({0, 0, nextSlice_}, {volume_.dims.x, volume_.dims.y, slices}, GL_RED,
+                        componentType(encoding_.format), upload);
+    }
     nextSlice_ += slices;
 }
 

@@ -1,4 +1,5 @@
-// Brings one volume from its provider into a 3D texture, some slices at a time. Private to this room.
+// Brings one volume from its provider into a 3D texture, or into host memory for rays that the processor
+// marches, some slices at a time. Private to this room.
 #pragma once
 
 #include "gpu/context.h"
@@ -11,6 +12,8 @@
 #include <cstdint>
 #include <deque>
 #include <future>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace voxsheet {
@@ -23,17 +26,19 @@ void setVolumeSampling(gpu::Texture& texture, const Grid& grid);
 class VolumeUpload {
 public:
     /// Looks the volume up and plans its texture; reads no samples yet. Throws NotFound for an unknown key.
+    /// \param exactR8Filtering  chooseTextureEncoding
     VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering,
-                 FloatTexels floatTexels);
+                 FloatTexels floatTexels, bool onHost);
 
-    [[nodiscard]] std::uint64_t bytes() const; ///< of the texture
+    [[nodiscard]] std::uint64_t bytes() const; ///< of the texture, or of the texels in host memory
     [[nodiscard]] bool
     exceedsDevice(const gpu::Context& context) const; ///< more texels on an axis than it takes
-    [[nodiscard]] gpu::Texture createTexture(gpu::Context& context) const;
+    /// Throws LimitExceeded when there is no room. Nothing where the texels stay on the host.
+    [[nodiscard]] std::optional<gpu::Texture> begin(gpu::Context& context);
     /// Converts and uploads chunks of slices as the reader brings them, and takes the min-max grid at last;
     /// up to the deadline it waits for the reader. At least one chunk if one has been read, then as many as
     /// begin before the deadline. True when all is done. Throws what reading threw.
-    [[nodiscard]] bool advance(gpu::Texture& texture, SliceReader& reader, Deadline deadline);
+    [[nodiscard]] bool advance(std::optional<gpu::Texture>& texture, SliceReader& reader, Deadline deadline);
 
     [[nodiscard]] const ResidentVolume& volume() const { return volume_; } ///< without its texture
     [[nodiscard]] std::uint64_t remainingBytes() const;                    ///< of texels
@@ -44,12 +49,14 @@ private:
     [[nodiscard]] int slicesPerChunk() const;
     [[nodiscard]] int slicesOfChunk(int zBegin) const;
     void askAhead(SliceReader& reader);
-    void uploadChunk(gpu::Texture& texture, const std::vector<std::byte>& stored);
+    void uploadChunk(std::optional<gpu::Texture>& texture, const std::vector<std::byte>& stored);
 
     const VolumeProvider& provider_;
     VolumeKey key_;
     ScalarType type_;
     TextureEncoding encoding_;
+    bool onHost_;
+    std::shared_ptr<HostTexels> host_;
     ResidentVolume volume_;
     int nextSlice_ = 0;
     int nextAsked_ = 0;                                     ///< slice

@@ -4,15 +4,30 @@
 #include "volume/texture_encoding.h"
 #include "volume/volume_provider.h"
 
+#include <compare>
+
 namespace voxsheet {
 
 /// In ascending order. What nobody names is Recent: kept for as long as nothing else wants its place.
 enum class WantedPriority { Recent, Soon, Visible };
 
+/// In which form a volume is held.
+struct TexelForm {
+    FloatTexels floats = FloatTexels::Full;
+    /// Read by techniques that march rays: where the workaround "simd-rays" is in force, the texels are held
+    /// in host memory instead of a texture.
+    bool forRays = false;
+
+    TexelForm() = default;
+    TexelForm(FloatTexels floatTexels, bool readByRays = false) // NOLINT: a precision is a form
+        : floats(floatTexels), forRays(readByRays) {}
+    auto operator<=>(const TexelForm&) const = default;
+};
+
 struct WantedVolume {
     VolumeKey key;
     WantedPriority priority = WantedPriority::Visible;
-    FloatTexels floatTexels = FloatTexels::Full;
+    TexelForm form;
 
     bool operator==(const WantedVolume&) const = default;
 };

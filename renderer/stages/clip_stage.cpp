@@ -33,6 +33,7 @@ struct KeptBox {
 KeptBox insideBox(const ResidentVolume& object) {
     KeptBox box{glm::vec3(kFar), glm::vec3(-kFar)};
     const auto& bricks = object.minMax->bricks;
+    const auto brickSamples = static_cast<float>(MinMaxGrid::brickSamplesFor(object.dims));
     auto range = object.minMax->ranges.begin();
     for (int z = 0; z < bricks.z; ++z)
         for (int y = 0; y < bricks.y; ++y)
@@ -40,7 +41,7 @@ KeptBox insideBox(const ResidentVolume& object) {
                 if (!(range->low < 0.0F)) continue;
                 const glm::ivec3 brick(x, y, z);
                 for (int axis = 0; axis < 3; ++axis) {
-                    const float width = MinMaxGrid::brickSamples / static_cast<float>(object.dims[axis]);
+                    const float width = brickSamples / static_cast<float>(object.dims[axis]);
                     const float low = brick[axis] == 0 ? -kFar : width * static_cast<float>(brick[axis]);
                     const float high =
                         brick[axis] + 1 == bricks[axis] ? kFar : width * static_cast<float>(brick[axis] + 1);
@@ -79,6 +80,30 @@ void validateClip(const ClipSpec& clip) {
             .withField("clip.transform");
 }
 
+ClipObjectFrame clipObjectFrame(const TileSpec& tile, const Grid& grid, const ResidentVolume& object) {
+    const auto& clip = *tile.clip.object;
+    const auto& objectGrid = object.meta->grid;
+    const auto objectFromTexture = clip.objectFromWorld * worldFromTexture(grid);
+    const bool probe = clip.mode == ClipMode::Probe;
+    const double sign = probe ? -1.0 : 1.0;
+    // Inside is below 0: a probe does not keep distances of exactly 0, which samples on a surface have.
+    const double onSurface = probe ? -kSmallest : 0.0;
+    const auto kept = probe ? insideBox(object) : KeptBox{};
+    const auto viewFromObject =
+        glm::dmat3(tile.camera.viewFromWorld) * glm::inverse(glm::dmat3(clip.objectFromWorld));
+    ClipObjectFrame frame;
+    frame.clipFromTexture = glm::mat4(glm::inverse(worldFromTexture(objectGrid)) * objectFromTexture);
+    frame.objectFromTexture = glm::mat3(objectFromTexture);
+    frame.measureFromTexel = glm::dvec2(sign * object.valueScale, sign * object.valueOffset + onSurface);
+    // Interpolants and nearest samples of true distances are off by at most half a voxel's diagonal, at both
+    // ends.
+    frame.nearestSampleSlack = static_cast<float>(glm::length(spacingWorld(objectGrid)));
+    frame.viewFromClipGradient = viewFromGradient(viewFromObject * glm::dmat3(objectGrid.worldFromIndex));
+    frame.keptLow = kept.low;
+    frame.keptHigh = kept.high;
+    return frame;
+}
+
 gpu::ShaderDefines ClipStage::defines(const ClipSpec& clip, const ResidentVolume* object, bool filterFloats) {
     const char* kind = object == nullptr ? "0" : clip.object->binary ? "2" : "1";
     const bool filter = object != nullptr && filterFloats && object->texture->internalFormat() == GL_R32F;
@@ -93,29 +118,16 @@ void ClipStage::bind(const gpu::Program& program, const TileSpec& tile, const Gr
     program.set("clipPlaneCount", static_cast<int>(planes.size()));
     program.set("clipPlanes", planes);
     if (object == nullptr) return;
-    const auto& clip = *tile.clip.object;
-    const auto& objectGrid = object->meta->grid;
     object->texture->bind(distanceUnit);
-    const auto objectFromTexture = clip.objectFromWorld * worldFromTexture(grid);
-    program.set("clipFromTexture", glm::mat4(glm::inverse(worldFromTexture(objectGrid)) * objectFromTexture));
-    program.set("objectFromTexture", glm::mat3(objectFromTexture));
-    const bool probe = clip.mode == ClipMode::Probe;
-    const double sign = probe ? -1.0 : 1.0;
-    // Inside is below 0: a probe does not keep distances of exactly 0, which samples on a surface have.
-    const double onSurface = probe ? -kSmallest : 0.0;
-    program.set("measureFromTexel",
-                glm::vec2(sign * object->valueScale, sign * object->valueOffset + onSurface));
+    const auto frame = clipObjectFrame(tile, grid, *object);
+    program.set("clipFromTexture", frame.clipFromTexture);
+    program.set("objectFromTexture", frame.objectFromTexture);
+    program.set("measureFromTexel", frame.measureFromTexel);
     program.set("clipTexelSize", 1.0F / glm::vec3(object->dims));
-    const auto kept = probe ? insideBox(*object) : KeptBox{};
-    program.set("clipKeptLow", kept.low);
-    program.set("clipKeptHigh", kept.high);
-    // Interpolants and nearest samples of true distances are off by at most half a voxel's diagonal, at both
-    // ends.
-    program.set("nearestSampleSlack", static_cast<float>(glm::length(spacingWorld(objectGrid))));
-    const auto viewFromObject =
-        glm::dmat3(tile.camera.viewFromWorld) * glm::inverse(glm::dmat3(clip.objectFromWorld));
-    program.set("viewFromClipGradient",
-                viewFromGradient(viewFromObject * glm::dmat3(objectGrid.worldFromIndex)));
+    program.set("clipKeptLow", frame.keptLow);
+    program.set("clipKeptHigh", frame.keptHigh);
+    program.set("nearestSampleSlack", frame.nearestSampleSlack);
+    program.set("viewFromClipGradient", frame.viewFromClipGradient);
 }
 
 } // namespace voxsheet

@@ -22,6 +22,21 @@ namespace voxsheet {
 /// have unit length, a number is not finite, or the object's matrix is not affine and invertible.
 void validateClip(const ClipSpec& clip);
 
+/// A clip object as shaders and kernels read it; names and meanings as in clip_object.glsl.
+struct ClipObjectFrame {
+    glm::mat4 clipFromTexture{1.0F};
+    glm::mat3 objectFromTexture{1.0F};
+    glm::vec2 measureFromTexel{1.0F, 0.0F};
+    float nearestSampleSlack = 0.0F;
+    glm::mat3 viewFromClipGradient{1.0F};
+    glm::vec3 keptLow{0.0F};
+    glm::vec3 keptHigh{0.0F};
+};
+
+/// \param grid  of the volume that is cut
+[[nodiscard]] ClipObjectFrame clipObjectFrame(const TileSpec& tile, const Grid& grid,
+                                              const ResidentVolume& object);
+
 class ClipStage {
 public:
     static constexpr GLuint distanceUnit = 3;

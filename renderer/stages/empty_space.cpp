@@ -19,6 +19,39 @@ gpu::Texture cellTexture(gpu::Context& context, const glm::ivec3& dims, const st
     return texture;
 }
 
+std::vector<std::uint8_t> distancesOf(const std::vector<std::uint8_t>& marks, const ResidentVolume& volume) {
+    return emptyDistances(marks, CellLayout::of(volume.dims).cells, volume.meta->grid.periodic);
+}
+
+std::vector<std::uint8_t> occupiedDistances(const TransferTable& table, const ResidentVolume& volume,
+                                            int reachSamples) {
+    return distancesOf(
+        occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, table, reachSamples), volume);
+}
+
+std::vector<std::uint8_t> crossedDistances(const std::vector<double>& values, const ResidentVolume& volume) {
+    return distancesOf(
+        crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values, kShortReach), volume);
+}
+
+/// In signed texels, as rays compare them; rounded up, so that each bound stays one.
+std::vector<float> largestTexels(const ResidentVolume& volume) {
+    const float sign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
+    auto largest = largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign, kLongReach);
+    const double scale = std::abs(volume.valueScale);
+    for (auto& value : largest) {
+        const double texel = (double(value) - double(sign) * volume.valueOffset) / scale;
+        value = std::nextafter(static_cast<float>(texel + 1e-6 * std::abs(texel)), HUGE_VALF);
+    }
+    return largest;
+}
+
+/// Marks are read four bytes at a time.
+std::vector<std::uint8_t> readable(std::vector<std::uint8_t> marks) {
+    marks.resize(marks.size() + 3);
+    return marks;
+}
+
 } // namespace
 
 int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
@@ -28,18 +61,20 @@ int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
     return samples;
 }
 
-EmptySpaceStage::EmptySpaceStage(gpu::Context& context) : context_(context), textures_(kCachedVolumes) {}
+EmptySpaceStage::EmptySpaceStage(gpu::Context& context)
+    : context_(context), textures_(kCachedVolumes), hostCells_(kCachedVolumes) {}
+
+bool EmptySpaceStage::Key::matches(const Key& other) const {
+    if (minMax != other.minMax || reachSamples != other.reachSamples || values != other.values) return false;
+    return table == other.table || (table && other.table && *table == *other.table);
+}
 
 const gpu::Texture& EmptySpaceStage::occupied(const std::shared_ptr<const TransferTable>& table,
                                               const ResidentVolume& volume, int reachSamples) {
-    const auto* cells = textures_.find([&](const Key& key) {
-        return key.minMax == volume.minMax && key.table && (key.table == table || *key.table == *table) &&
-               key.reachSamples == reachSamples;
-    });
+    Key key{volume.minMax, table, {}, reachSamples};
+    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    const auto marks =
-        occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, *table, reachSamples);
-    return insertDistances({volume.minMax, table, {}, reachSamples}, volume, marks);
+    return insertDistances(std::move(key), volume, occupiedDistances(*table, volume, reachSamples));
 }
 
 void EmptySpaceStage::bindOccupied(const gpu::Program& program,
@@ -50,42 +85,49 @@ void EmptySpaceStage::bindOccupied(const gpu::Program& program,
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                                   const ResidentVolume& volume) {
-    const auto* cells = textures_.find(
-        [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values == values; });
-    if (cells == nullptr) {
-        const auto marks =
-            crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values, kShortReach);
-        cells = &insertDistances({volume.minMax, nullptr, values, kShortReach}, volume, marks);
-    }
+    Key key{volume.minMax, nullptr, values, kShortReach};
+    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
+    if (cells == nullptr) cells = &insertDistances(std::move(key), volume, crossedDistances(values, volume));
     bind(program, volume, *cells);
 }
 
 const gpu::Texture& EmptySpaceStage::insertDistances(Key key, const ResidentVolume& volume,
-                                                     const std::vector<std::uint8_t>& marks) {
-    const auto layout = CellLayout::of(volume.dims);
-    const auto shortLast = glm::notEqual(layout.cells * layout.cellSamples, volume.dims);
-    const auto distances = emptyDistances(marks, layout.cells, volume.meta->grid.periodic, shortLast);
+                                                     const std::vector<std::uint8_t>& distances) {
     return textures_.insert(std::move(key), cellTexture(context_, volume.dims, distances, GL_R8UI,
                                                         GL_RED_INTEGER, GL_UNSIGNED_BYTE));
 }
 
 void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
-    const auto* cells = textures_.find(
-        [&](const Key& key) { return key.minMax == volume.minMax && !key.table && key.values.empty(); });
-    if (cells == nullptr) {
-        const float sign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
-        auto largest =
-            largestInCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, sign, kLongReach);
-        // In signed texels, as the shader compares them; rounded up, so that the bound stays one.
-        const double scale = std::abs(volume.valueScale);
-        for (auto& value : largest) {
-            const double texel = (double(value) - double(sign) * volume.valueOffset) / scale;
-            value = std::nextafter(static_cast<float>(texel + 1e-6 * std::abs(texel)), HUGE_VALF);
-        }
-        cells = &textures_.insert({volume.minMax, nullptr, {}, kLongReach},
-                                  cellTexture(context_, volume.dims, largest, GL_R32F, GL_RED, GL_FLOAT));
-    }
+    Key key{volume.minMax, nullptr, {}, kLongReach};
+    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
+    if (cells == nullptr)
+        cells = &textures_.insert(std::move(key), cellTexture(context_, volume.dims, largestTexels(volume),
+                                                              GL_R32F, GL_RED, GL_FLOAT));
     bind(program, volume, *cells);
+}
+
+const EmptySpaceStage::HostCells&
+EmptySpaceStage::occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
+                                const ResidentVolume& volume, int reachSamples) {
+    Key key{volume.minMax, table, {}, reachSamples};
+    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    if (cells != nullptr) return *cells;
+    return hostCells_.insert(std::move(key), {readable(occupiedDistances(*table, volume, reachSamples)), {}});
+}
+
+const EmptySpaceStage::HostCells& EmptySpaceStage::crossedOnHost(const std::vector<double>& values,
+                                                                 const ResidentVolume& volume) {
+    Key key{volume.minMax, nullptr, values, kShortReach};
+    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    if (cells != nullptr) return *cells;
+    return hostCells_.insert(std::move(key), {readable(crossedDistances(values, volume)), {}});
+}
+
+const EmptySpaceStage::HostCells& EmptySpaceStage::largestOnHost(const ResidentVolume& volume) {
+    Key key{volume.minMax, nullptr, {}, kLongReach};
+    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    if (cells != nullptr) return *cells;
+    return hostCells_.insert(std::move(key), {{}, largestTexels(volume)});
 }
 
 void EmptySpaceStage::bind(const gpu::Program& program, const ResidentVolume& volume,

@@ -39,6 +39,17 @@ public:
     /// with texels). Of kLongReach.
     void bindLargest(const gpu::Program& program, const ResidentVolume& volume);
 
+    // --- the same in host memory, for rays that the processor marches; the references hold until more is
+    // asked for ---
+    struct HostCells {
+        std::vector<std::uint8_t> marks; ///< and three bytes more that may be read
+        std::vector<float> largest;      ///< of MIP instead of marks
+    };
+    const HostCells& occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
+                                    const ResidentVolume& volume, int reachSamples);
+    const HostCells& crossedOnHost(const std::vector<double>& values, const ResidentVolume& volume);
+    const HostCells& largestOnHost(const ResidentVolume& volume);
+
 private:
     struct Key {
         std::shared_ptr<const MinMaxGrid> minMax;
@@ -46,13 +57,17 @@ private:
             table; ///< null: largest texels, or cells where `values` are crossed
         std::vector<double> values;
         int reachSamples = 0;
+
+        [[nodiscard]] bool matches(const Key& other) const;
     };
+
     const gpu::Texture& insertDistances(Key key, const ResidentVolume& volume,
-                                        const std::vector<std::uint8_t>& marks);
+                                        const std::vector<std::uint8_t>& distances);
     void bind(const gpu::Program& program, const ResidentVolume& volume, const gpu::Texture& cells) const;
 
     gpu::Context& context_;
     RecentCache<Key, gpu::Texture> textures_;
+    RecentCache<Key, HostCells> hostCells_;
 };
 
 } // namespace voxsheet

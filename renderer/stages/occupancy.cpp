@@ -12,7 +12,7 @@ constexpr long kMaxSmallCells = 1L << 24;
 
 /// The bricks that a cell and its surroundings touch on one axis, without repeats.
 std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samples, int bricks,
-                                            bool periodic, int reachSamples) {
+                                            int brickSamples, bool periodic, int reachSamples) {
     std::vector<std::vector<int>> result(static_cast<std::size_t>(cells));
     for (int cell = 0; cell < cells; ++cell) {
         auto& touched = result[static_cast<std::size_t>(cell)];
@@ -22,7 +22,7 @@ std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samp
         for (int sample = begin - 1; sample < end; ++sample) {
             const int inside =
                 periodic ? ((sample % samples) + samples) % samples : std::clamp(sample, 0, samples - 1);
-            const int brick = std::min(inside / MinMaxGrid::brickSamples, bricks - 1);
+            const int brick = std::min(inside / brickSamples, bricks - 1);
             if (std::find(touched.begin(), touched.end(), brick) == touched.end()) touched.push_back(brick);
         }
     }
@@ -40,7 +40,7 @@ std::vector<T> largestOverBricks(std::vector<T> values, glm::ivec3 size, const g
     const auto layout = CellLayout::of(dims);
     for (int axis = 0; axis < 3; ++axis) {
         const auto touched = bricksOfCells(layout.cells[axis], layout.cellSamples, dims[axis], size[axis],
-                                           periodic[axis], reachSamples);
+                                           MinMaxGrid::brickSamplesFor(dims), periodic[axis], reachSamples);
         glm::ivec3 wider = size;
         wider[axis] = layout.cells[axis];
         std::vector<T> spread(static_cast<std::size_t>(wider.x) * static_cast<std::size_t>(wider.y) *

@@ -8,6 +8,7 @@
 #include "techniques/overlay/crystal_overlay.h"
 #include "techniques/plane/plane.h"
 #include "techniques/raycast/raycast.h"
+#include "techniques/simd_rays.h"
 #include "techniques/slicing/slicing.h"
 #include "techniques/surface/surface.h"
 #include "techniques/tile_acquisition.h"
@@ -78,6 +79,24 @@ public:
     SlicingTechnique slicing;
     SurfaceTechnique surface;
     CrystalOverlay crystal;
+    SimdRays simdRays;
+
+    void drawByShaders(const DrawRequest& request) {
+        switch (request.tile.technique) {
+        case Technique::Raycast:
+            return drawRaycast(stages, request);
+        case Technique::Mip:
+            return drawMip(stages, request);
+        case Technique::Slices:
+            return slicing.draw(stages, request);
+        case Technique::Surface:
+            return surface.draw(stages, request);
+        case Technique::Isosurface:
+            return drawIsosurface(stages, request);
+        case Technique::Plane:
+            return drawPlane(stages, request);
+        }
+    }
 
     [[nodiscard]] DerivedTextureBuilder gradientBuilder() {
         return [this](const ResidentVolume& volume, gpu::Texture& texture, int zBegin, int zCount) {
@@ -128,26 +147,10 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
     const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
     const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
     volumes.solids = implementation_->crystal.draw(stages, request);
-    switch (tile.technique) {
-    case Technique::Raycast:
-        drawRaycast(stages, request);
-        break;
-    case Technique::Mip:
-        drawMip(stages, request);
-        break;
-    case Technique::Slices:
-        implementation_->slicing.draw(stages, request);
-        break;
-    case Technique::Surface:
-        implementation_->surface.draw(stages, request);
-        break;
-    case Technique::Isosurface:
-        drawIsosurface(stages, request);
-        break;
-    case Technique::Plane:
-        drawPlane(stages, request);
-        break;
-    }
+    if (volumes.volume.host)
+        implementation_->simdRays.draw(stages, request);
+    else
+        implementation_->drawByShaders(request);
     if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
     stages.context.checkErrors("drawing a tile");
 }

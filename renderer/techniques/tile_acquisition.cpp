@@ -16,28 +16,36 @@ constexpr long kSmallLevelSamples = 64L * 64 * 64;
 /// One volume that the tile reads.
 struct Part {
     VolumeKey key;
-    FloatTexels floatTexels = FloatTexels::Full;
+    TexelForm form;
     SamplesUse use = SamplesUse::Drawing;
 };
 
 Part drawnPart(const TileSpec& tile, int level) {
-    return {{tile.dataset, tile.field, tile.step, level}, tile.floatTexels, SamplesUse::Drawing};
+    return {{tile.dataset, tile.field, tile.step, level},
+            {tile.floatTexels, marchesRays(tile)},
+            SamplesUse::Drawing};
 }
 
 std::optional<Part> clipPart(const TileSpec& tile, int level) {
     if (!tile.clip.object || tile.technique == Technique::Plane) return std::nullopt;
-    return Part{{tile.clip.object->dataset, 0, 0, level}, FloatTexels::Full, SamplesUse::Clipping};
+    return Part{{tile.clip.object->dataset, 0, 0, level},
+                {FloatTexels::Full, marchesRays(tile)},
+                SamplesUse::Clipping};
 }
 
 std::optional<Part> colourPart(const TileSpec& tile, int level) {
     if (tile.technique != Technique::Isosurface || !tile.isosurface.colouredBy) return std::nullopt;
     const auto& colours = *tile.isosurface.colouredBy;
-    return Part{
-        {colours.dataset, colours.field, colours.step, level}, FloatTexels::Full, SamplesUse::Drawing};
+    return Part{{colours.dataset, colours.field, colours.step, level},
+                {FloatTexels::Full, marchesRays(tile)},
+                SamplesUse::Drawing};
 }
 
-Part layerPart(const VolumeLayer& layer, int level) {
-    return {{layer.dataset, layer.field, layer.step, level}, layer.floatTexels, SamplesUse::Drawing};
+Part layerPart(const TileSpec& tile, std::size_t i, int level) {
+    const auto& layer = tile.layers.volumes[i];
+    return {{layer.dataset, layer.field, layer.step, level},
+            {layer.floatTexels, marchesRays(tile)},
+            SamplesUse::Drawing};
 }
 
 /// One of the levels, and the bytes of what it stands for.
@@ -53,35 +61,36 @@ VolumeLease acquireSmallLevel(ResidencyManager& residency, const Part& part) {
     while (key.level + 1 < meta->levels() &&
            sampleCount(levelDims(meta->grid.dims, key.level)) > kSmallLevelSamples)
         ++key.level;
-    while (key.level + 1 < meta->levels() &&
-           residency.bytesOf(key, part.floatTexels) > residency.budgetBytes() / 4)
+    while (key.level + 1 < meta->levels() && residency.bytesOf(key, part.form) > residency.budgetBytes() / 4)
         ++key.level;
-    return residency.acquire(key, part.floatTexels, part.use);
+    return residency.acquire(key, part.form, part.use);
 }
 
 /// \param awaited  set when the level itself is on its way
 VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& awaited) {
-    if (auto exact = residency.acquireResident(part.key, part.floatTexels, part.use))
-        return std::move(*exact);
+    if (auto exact = residency.acquireResident(part.key, part.form, part.use)) return std::move(*exact);
     const auto atHand = [&] {
         VolumeKey key = part.key;
-        if (const auto level = residency.nearestResidentLevel(part.key, part.floatTexels)) key.level = *level;
-        auto lease = residency.acquireResident(key, part.floatTexels, part.use);
+        if (const auto level = residency.nearestResidentLevel(part.key, part.form)) key.level = *level;
+        auto lease = residency.acquireResident(key, part.form, part.use);
         return lease ? std::move(*lease) : acquireSmallLevel(residency, part);
     };
     auto lease = atHand();
     if (lease.volume().level != part.key.level)
-        awaited = residency.request(part.key, part.floatTexels, part.use) || awaited;
+        awaited = residency.request(part.key, part.form, part.use) || awaited;
     return lease;
 }
 
 } // namespace
 
-bool wantsGradientTexture(const TileSpec& tile) {
+bool wantsGradientTexture(const TileSpec& tile, const gpu::Workarounds& workarounds) {
     // Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
-    const bool usesGradients = tile.technique == Technique::Slices || tile.technique == Technique::Raycast ||
-                               tile.technique == Technique::Isosurface;
-    return usesGradients && tile.shading.enabled && tile.shading.gradient == GradientSource::Texture;
+    const bool marches = tile.technique == Technique::Raycast || tile.technique == Technique::Isosurface;
+    const bool usesGradients = marches || tile.technique == Technique::Slices;
+    if (!usesGradients || !tile.shading.enabled || tile.shading.gradient != GradientSource::Texture)
+        return false;
+    // SimdRays takes them from the samples: as fast, and without the texture.
+    return !(workarounds.simdRays && marches && tile.layers.volumes.empty());
 }
 
 TileLevels askedLevels(const TileSpec& tile) {
@@ -100,15 +109,16 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
         const auto add = [&](const std::optional<Part>& part, int& level, bool gradients) {
             if (!part) return;
             // One volume read in two roles is one texture.
-            std::uint64_t bytes = residency.bytesOf(part->key, part->floatTexels);
+            std::uint64_t bytes = residency.bytesOf(part->key, part->form);
             if (gradients) bytes += residency.gradientBytesOf(part->key);
             parts.push_back({&level, residency.describe(part->key.dataset)->levels() - 1, bytes});
         };
-        add(drawnPart(tile, levels.volume), levels.volume, wantsGradientTexture(tile));
+        add(drawnPart(tile, levels.volume), levels.volume,
+            wantsGradientTexture(tile, residency.workarounds()));
         add(clipPart(tile, levels.clipObject), levels.clipObject, false);
         add(colourPart(tile, levels.colours), levels.colours, false);
         for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
-            add(layerPart(tile.layers.volumes[i], levels.layers.at(i)), levels.layers.at(i), false);
+            add(layerPart(tile, i, levels.layers.at(i)), levels.layers.at(i), false);
         std::uint64_t sum = 0;
         for (const auto& part : parts)
             sum += part.bytes;
@@ -128,29 +138,29 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
 
 bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, const TileLevels& levels) {
     const auto resident = [&](const std::optional<Part>& part) {
-        return !part || residency.isResident(part->key, part->floatTexels);
+        return !part || residency.isResident(part->key, part->form);
     };
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
-        if (!resident(layerPart(tile.layers.volumes[i], levels.layers.at(i)))) return false;
+        if (!resident(layerPart(tile, i, levels.layers.at(i)))) return false;
     const Part drawn = drawnPart(tile, levels.volume);
     return resident(drawn) && resident(clipPart(tile, levels.clipObject)) &&
            resident(colourPart(tile, levels.colours)) &&
-           (!wantsGradientTexture(tile) || residency.areGradientsResident(drawn.key, drawn.floatTexels));
+           (!wantsGradientTexture(tile, residency.workarounds()) ||
+            residency.areGradientsResident(drawn.key, drawn.form));
 }
 
 std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,
                                          const TileLevels& levels, Deadline deadline,
                                          const DerivedTextureBuilder& buildGradients) {
     const auto acquire = [&](const Part& part) {
-        return residency.acquireBy(deadline, part.key, part.floatTexels, part.use);
+        return residency.acquireBy(deadline, part.key, part.form, part.use);
     };
     const Part drawn = drawnPart(tile, levels.volume);
     auto volume = acquire(drawn);
     if (!volume) return std::nullopt;
     TileVolumes volumes{std::move(*volume), {}, {}, {}, {}, false, false};
-    if (wantsGradientTexture(tile)) {
-        volumes.gradients =
-            residency.acquireGradientsBy(deadline, drawn.key, drawn.floatTexels, buildGradients);
+    if (wantsGradientTexture(tile, residency.workarounds())) {
+        volumes.gradients = residency.acquireGradientsBy(deadline, drawn.key, drawn.form, buildGradients);
         if (!volumes.gradients) return std::nullopt;
     }
     if (const auto part = clipPart(tile, levels.clipObject)) {
@@ -162,7 +172,7 @@ std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const Tile
         if (!volumes.colours) return std::nullopt;
     }
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
-        auto layer = acquire(layerPart(tile.layers.volumes[i], levels.layers.at(i)));
+        auto layer = acquire(layerPart(tile, i, levels.layers.at(i)));
         if (!layer) return std::nullopt;
         volumes.layers.push_back(std::move(*layer));
     }
@@ -175,14 +185,14 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
     const Part drawn = drawnPart(tile, levels.volume);
     TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, {}, false, false};
     volumes.standIn = volumes.volume.volume().level != levels.volume;
-    if (wantsGradientTexture(tile)) {
+    if (wantsGradientTexture(tile, residency.workarounds())) {
         VolumeKey key = drawn.key;
         key.level = volumes.volume.volume().level;
         // Without them the shader takes six taps: slower, and at samples the same.
         volumes.gradients = residency.acquireResidentGradients(key, tile.floatTexels);
         if (!volumes.gradients || key.level != levels.volume) {
             volumes.standIn = true;
-            awaited = residency.requestGradients(drawn.key, drawn.floatTexels, buildGradients) || awaited;
+            awaited = residency.requestGradients(drawn.key, drawn.form, buildGradients) || awaited;
         }
     }
     if (const auto part = clipPart(tile, levels.clipObject)) {
@@ -194,8 +204,7 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
         volumes.standIn = volumes.standIn || volumes.colours->volume().level != levels.colours;
     }
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
-        volumes.layers.push_back(
-            acquireAtHand(residency, layerPart(tile.layers.volumes[i], levels.layers.at(i)), awaited));
+        volumes.layers.push_back(acquireAtHand(residency, layerPart(tile, i, levels.layers.at(i)), awaited));
         volumes.standIn = volumes.standIn || volumes.layers.back().volume().level != levels.layers.at(i);
     }
     volumes.awaited = awaited;

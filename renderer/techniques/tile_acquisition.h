@@ -6,7 +6,7 @@
 namespace voxsheet {
 
 /// True when the tile's light reads a gradient texture.
-[[nodiscard]] bool wantsGradientTexture(const TileSpec& tile);
+[[nodiscard]] bool wantsGradientTexture(const TileSpec& tile, const gpu::Workarounds& workarounds);
 
 /// As the tile asks; the clip object at its level 0.
 [[nodiscard]] TileLevels askedLevels(const TileSpec& tile);

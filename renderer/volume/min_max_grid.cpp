@@ -12,10 +12,13 @@ namespace voxsheet {
 
 namespace {
 
-/// The samples that trilinear interpolation inside brick `b` can touch: 8b-1 .. 8b+8, clamped or wrapped.
-std::vector<int> touchedSamples(int b, int n, bool periodic) {
+constexpr long kMaxSmallBricks = 1L << 24;
+
+/// The samples that trilinear interpolation inside brick `b` can touch: one more on both sides, clamped or
+/// wrapped.
+std::vector<int> touchedSamples(int b, int brickSamples, int n, bool periodic) {
     std::vector<int> samples;
-    for (int i = MinMaxGrid::brickSamples * b - 1; i <= MinMaxGrid::brickSamples * (b + 1); ++i) {
+    for (int i = brickSamples * b - 1; i <= brickSamples * (b + 1); ++i) {
         if (i >= 0 && i < n)
             samples.push_back(i);
         else if (periodic)
@@ -24,10 +27,10 @@ std::vector<int> touchedSamples(int b, int n, bool periodic) {
     return samples;
 }
 
-std::vector<std::vector<int>> touchedPerBrick(int n, bool periodic) {
+std::vector<std::vector<int>> touchedPerBrick(int brickSamples, int n, bool periodic) {
     std::vector<std::vector<int>> all;
-    for (int b = 0; b * MinMaxGrid::brickSamples < n; ++b)
-        all.push_back(touchedSamples(b, n, periodic));
+    for (int b = 0; b * brickSamples < n; ++b)
+        all.push_back(touchedSamples(b, brickSamples, n, periodic));
     return all;
 }
 
@@ -60,12 +63,13 @@ MinMaxGrid::Range valueRange(T low, T high, double scale, double offset) {
 template <typename T>
 void buildRanges(const StoredArray& level, const glm::bvec3& periodic, MinMaxGrid& grid) {
     const auto* in = reinterpret_cast<const T*>(level.samples.data());
-    const auto touchedX = touchedPerBrick(level.dims.x, periodic.x);
-    const auto touchedY = touchedPerBrick(level.dims.y, periodic.y);
-    const auto touchedZ = touchedPerBrick(level.dims.z, periodic.z);
+    const int brickSamples = MinMaxGrid::brickSamplesFor(level.dims);
+    const auto touchedX = touchedPerBrick(brickSamples, level.dims.x, periodic.x);
+    const auto touchedY = touchedPerBrick(brickSamples, level.dims.y, periodic.y);
+    const auto touchedZ = touchedPerBrick(brickSamples, level.dims.z, periodic.z);
     const auto rowLength = static_cast<std::size_t>(level.dims.x);
 
-    // One row of bricks at a time: the 10 x 10 sample rows that it touches fold into one row of ranges, which
+    // One row of bricks at a time: the sample rows that it touches fold into one row of ranges, which
     // then folds along x.
     parallelFor(static_cast<long>(touchedZ.size() * touchedY.size()), 8, [&](long begin, long end) {
         std::vector<T> lows(rowLength);
@@ -100,6 +104,11 @@ void buildRanges(const StoredArray& level, const glm::bvec3& periodic, MinMaxGri
 }
 
 } // namespace
+
+int MinMaxGrid::brickSamplesFor(const glm::ivec3& dims) {
+    const auto small = (glm::tvec3<long>(dims) + 3L) / 4L;
+    return small.x * small.y * small.z > kMaxSmallBricks ? 8 : 4;
+}
 
 MinMaxGrid buildMinMaxGrid(const StoredArray& level, const glm::bvec3& periodic) {
     validateStoredArray(level);

@@ -96,7 +96,8 @@ Engine::Implementation::Implementation(EngineOptions given)
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
       hostCache(makeHostCache(options, datasets.volumes())), thread(renderThread(options, hostCache)),
       tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), namedVolumeSources(datasets),
-            {environmentOf(thread.get()), thread && !thread->device().software}),
+            {environmentOf(thread.get()),
+             thread ? gpu::workaroundsNamed(thread->device().workarounds) : gpu::Workarounds{}}),
       probes(*keys, datasets.volumes()),
       workbook(keys, options, [this](std::uint64_t version) { workbookChanged(version); }) {}
 

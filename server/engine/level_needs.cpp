@@ -1,5 +1,8 @@
 #include "engine/level_needs.h"
 
+#include "techniques/tile_acquisition.h"
+#include "volume/host_texels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,26 +26,26 @@ double nearestDepthWorld(const Grid& grid, const CameraSpec& camera) {
     return nearest;
 }
 
-bool hasGradientTexture(const TileSpec& tile) {
-    return tile.shading.enabled && tile.shading.gradient == GradientSource::Texture &&
-           tile.technique != Technique::Mip && tile.technique != Technique::Surface &&
-           tile.technique != Technique::Plane;
-}
-
-std::string volumeName(const std::string& dataset, int field, int step, FloatTexels floatTexels) {
+/// As the residency manager keys it: one volume in two forms takes the bytes of both.
+std::string volumeName(const std::string& dataset, int field, int step, TexelForm form) {
     return dataset + "/" + std::to_string(field) + "/" + std::to_string(step) +
-           (floatTexels == FloatTexels::Half ? "h" : "");
+           (form.floats == FloatTexels::Half ? "h" : "") + (form.forRays ? "r" : "");
 }
 
-std::vector<std::uint64_t> bytesPerLevel(const DatasetMeta& meta, int field, FloatTexels floatTexels,
-                                         bool exactR8Filtering, std::uint64_t gradientTexelBytes) {
+std::vector<std::uint64_t> bytesPerLevel(const DatasetMeta& meta, int field, TexelForm form,
+                                         const gpu::Workarounds& workarounds,
+                                         std::uint64_t gradientTexelBytes) {
     const ScalarType type = meta.fields.at(static_cast<std::size_t>(field)).storedType;
+    const bool onHost = form.forRays && workarounds.simdRays;
     std::vector<std::uint64_t> bytes;
     for (int level = 0; level < meta.levels(); ++level) {
-        const TextureEncoding encoding =
-            chooseTextureEncoding(levelType(type, level), 0.0, 1.0, exactR8Filtering, floatTexels);
-        const auto texels = static_cast<std::uint64_t>(sampleCount(levelDims(meta.grid.dims, level)));
-        bytes.push_back(texels * (texelFormatBytes(encoding.format) + gradientTexelBytes));
+        const TextureEncoding encoding = chooseTextureEncoding(levelType(type, level), 0.0, 1.0,
+                                                               onHost || !workarounds.r8AsR16, form.floats);
+        const auto dims = levelDims(meta.grid.dims, level);
+        const auto texels = static_cast<std::uint64_t>(sampleCount(dims));
+        const std::uint64_t samples =
+            onHost ? HostTexels::bytesFor(encoding.format, dims) : texels * texelFormatBytes(encoding.format);
+        bytes.push_back(samples + texels * gradientTexelBytes);
     }
     return bytes;
 }
@@ -62,10 +65,11 @@ double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 si
 }
 
 LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet::TypedStyle& style,
-                      bool exactR8Filtering) {
+                      const gpu::Workarounds& workarounds) {
     LevelNeeds needs;
-    const bool gradients = hasGradientTexture(tile);
-    needs.volume = volumeName(tile.dataset, tile.field, tile.step, tile.floatTexels) + (gradients ? "g" : "");
+    const bool gradients = wantsGradientTexture(tile, workarounds);
+    const TexelForm form(tile.floatTexels, marchesRays(tile));
+    needs.volume = volumeName(tile.dataset, tile.field, tile.step, form) + (gradients ? "g" : "");
     needs.work = std::to_string(static_cast<int>(tile.technique)) + (tile.shading.enabled ? "s" : "") +
                  (gradients ? "g" : "") + std::string(tile.layers.volumes.size(), 'l') + " " +
                  std::to_string(tile.sampleDistanceVoxels);
@@ -73,19 +77,18 @@ LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet
         texelEdgePixels(drawnGrid(meta.grid, tile.periodic), tile.camera, tile.sizePixels);
     needs.finest = static_cast<int>(style.quality);
     needs.pinned = style.level;
-    needs.textureBytes = bytesPerLevel(meta, tile.field, tile.floatTexels, exactR8Filtering,
-                                       gradients ? kGradientTexelBytes : 0);
+    needs.textureBytes =
+        bytesPerLevel(meta, tile.field, form, workarounds, gradients ? kGradientTexelBytes : 0);
     return needs;
 }
 
-FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, FloatTexels floatTexels,
-                            bool exactR8Filtering) {
-    return {volumeName(meta.key, field, step, floatTexels),
-            bytesPerLevel(meta, field, floatTexels, exactR8Filtering, 0)};
+FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, TexelForm form,
+                            const gpu::Workarounds& workarounds) {
+    return {volumeName(meta.key, field, step, form), bytesPerLevel(meta, field, form, workarounds, 0)};
 }
 
-FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool exactR8Filtering) {
-    FurtherVolume object = furtherVolume(meta, 0, 0, FloatTexels::Full, exactR8Filtering);
+FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool forRays, const gpu::Workarounds& workarounds) {
+    FurtherVolume object = furtherVolume(meta, 0, 0, {FloatTexels::Full, forRays}, workarounds);
     object.textureBytes.resize(1);
     return object;
 }

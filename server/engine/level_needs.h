@@ -1,6 +1,8 @@
 // What choosing a cell's level of detail needs to know about its picture.
 #pragma once
 
+#include "gpu/workarounds.h"
+#include "residency/wanted_volume.h"
 #include "resolution/level_policy.h"
 #include "sheet/typed_style.h"
 #include "stages/tile_spec.h"
@@ -31,15 +33,16 @@ struct LevelNeeds {
 [[nodiscard]] double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 sizePixels);
 
 /// All but `further`.
-/// \param exactR8Filtering  chooseTextureEncoding
+/// \param workarounds  of the device: they decide the form in which volumes are held
 [[nodiscard]] LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta,
-                                    const sheet::TypedStyle& style, bool exactR8Filtering);
+                                    const sheet::TypedStyle& style, const gpu::Workarounds& workarounds);
 
 /// One volume as textures hold it, for LevelNeeds::further.
-[[nodiscard]] FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step,
-                                          FloatTexels floatTexels, bool exactR8Filtering);
+[[nodiscard]] FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, TexelForm form,
+                                          const gpu::Workarounds& workarounds);
 
 /// A clip object's distances, likewise: at level 0 whatever the level of the picture.
-[[nodiscard]] FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool exactR8Filtering);
+[[nodiscard]] FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool forRays,
+                                             const gpu::Workarounds& workarounds);
 
 } // namespace voxsheet::engine

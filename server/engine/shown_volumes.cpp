@@ -7,15 +7,19 @@ namespace voxsheet::engine {
 
 std::vector<WantedVolume> volumesOf(const TileSpec& tile, WantedPriority priority) {
     std::vector<WantedVolume> volumes{
-        {{tile.dataset, tile.field, tile.step, tile.level}, priority, tile.floatTexels}};
-    if (tile.clip.object) volumes.push_back({{tile.clip.object->dataset, 0, 0, 0}, priority, {}});
+        {{tile.dataset, tile.field, tile.step, tile.level}, priority, {tile.floatTexels, marchesRays(tile)}}};
+    if (tile.clip.object)
+        volumes.push_back(
+            {{tile.clip.object->dataset, 0, 0, 0}, priority, {FloatTexels::Full, marchesRays(tile)}});
     if (tile.technique == Technique::Isosurface && tile.isosurface.colouredBy) {
         const auto& by = *tile.isosurface.colouredBy;
-        volumes.push_back({{by.dataset, by.field, by.step, by.level}, priority, {}});
+        volumes.push_back(
+            {{by.dataset, by.field, by.step, by.level}, priority, {FloatTexels::Full, marchesRays(tile)}});
     }
     for (const VolumeLayer& layer : tile.layers.volumes)
-        volumes.push_back(
-            {{layer.dataset, layer.field, layer.step, layer.level}, priority, layer.floatTexels});
+        volumes.push_back({{layer.dataset, layer.field, layer.step, layer.level},
+                           priority,
+                           {layer.floatTexels, marchesRays(tile)}});
     return volumes;
 }
 
@@ -27,10 +31,10 @@ std::optional<std::vector<WantedVolume>> ShownVolumes::replace(const std::string
         viewers_[viewer] = std::move(volumes);
     }
     std::vector<WantedVolume> all;
-    std::map<std::pair<VolumeKey, FloatTexels>, std::size_t> places;
+    std::map<std::pair<VolumeKey, TexelForm>, std::size_t> places;
     for (const auto& [name, shown] : viewers_) {
         for (const WantedVolume& volume : shown) {
-            const auto [place, isNew] = places.try_emplace({volume.key, volume.floatTexels}, all.size());
+            const auto [place, isNew] = places.try_emplace({volume.key, volume.form}, all.size());
             if (isNew) {
                 all.push_back(volume);
             } else {

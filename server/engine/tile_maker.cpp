@@ -386,24 +386,24 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
         spec.layers.volumes.push_back(std::move(drawn));
         tile.layerLevels.push_back(levels);
     }
-    tile.needs = levelNeeds(spec, *look.meta, style, environment_.exactR8Filtering);
+    tile.needs = levelNeeds(spec, *look.meta, style, environment_.workarounds);
     if (look.labels) tile.needs.textureBytes.resize(1);
-    tile.needs.further = furtherVolumes(look);
+    tile.needs.further = furtherVolumes(look, marchesRays(spec));
     tile.note = look.note;
     tile.spec = std::move(spec);
     tile.identity = tileIdentity(*tile.spec, environment_.text);
 }
 
-std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look) const {
+std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look, bool forRays) const {
     std::vector<FurtherVolume> volumes;
     if (look.clipObject && look.clipObject->meta)
-        volumes.push_back(clipObjectVolume(*look.clipObject->meta, environment_.exactR8Filtering));
+        volumes.push_back(clipObjectVolume(*look.clipObject->meta, forRays, environment_.workarounds));
     if (const auto& by = look.colouredBy)
-        volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step, FloatTexels::Full,
-                                        environment_.exactR8Filtering));
+        volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step,
+                                        {FloatTexels::Full, forRays}, environment_.workarounds));
     for (const LayerLook& layer : look.layers) {
-        volumes.push_back(furtherVolume(*layer.meta, layer.shown.field, layer.shown.step, layer.floatTexels,
-                                        environment_.exactR8Filtering));
+        volumes.push_back(furtherVolume(*layer.meta, layer.shown.field, layer.shown.step,
+                                        {layer.floatTexels, forRays}, environment_.workarounds));
         if (layer.labels) volumes.back().textureBytes.resize(1);
     }
     return volumes;

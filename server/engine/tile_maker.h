@@ -7,6 +7,7 @@
 #include "engine/label_table.h"
 #include "engine/look_cache.h"
 #include "engine/named_volumes.h"
+#include "gpu/workarounds.h"
 
 #include <map>
 #include <memory>
@@ -64,8 +65,8 @@ struct SharedQuantity {
 
 /// What is the same for all tiles of this program.
 struct TileEnvironment {
-    std::string text;              ///< device, driver, build: part of every identity
-    bool exactR8Filtering = false; ///< chooseTextureEncoding
+    std::string text;             ///< device, driver, build: part of every identity
+    gpu::Workarounds workarounds; ///< of the device
 };
 
 /// Thread-safe.
@@ -128,7 +129,7 @@ private:
                                                      const std::shared_ptr<const CellContents>& contents);
     void addLabels(CellLook& look) const;
     /// That the picture reads besides the cell's own.
-    [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look) const;
+    [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look, bool forRays) const;
     /// What the picture's colours come from.
     [[nodiscard]] std::shared_ptr<const TransferTable> tableOf(const std::optional<LabelTable>& labels,
                                                                const ResolvedTransfer& transfer);

@@ -10,7 +10,7 @@
 namespace voxsheet {
 namespace {
 
-/// By the definition: the range over samples 8b-1 .. 8b+8, clamped or wrapped.
+/// By the definition: the range over samples 4b-1 .. 4b+4, clamped or wrapped.
 MinMaxGrid::Range referenceRange(const std::vector<float>& samples, glm::ivec3 n, glm::bvec3 periodic,
                                  glm::ivec3 b) {
     MinMaxGrid::Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
@@ -18,9 +18,9 @@ MinMaxGrid::Range referenceRange(const std::vector<float>& samples, glm::ivec3 n
         if (periodic[axis]) return (i % n[axis] + n[axis]) % n[axis];
         return std::clamp(i, 0, n[axis] - 1);
     };
-    for (int z = 8 * b.z - 1; z <= 8 * b.z + 8; ++z)
-        for (int y = 8 * b.y - 1; y <= 8 * b.y + 8; ++y)
-            for (int x = 8 * b.x - 1; x <= 8 * b.x + 8; ++x) {
+    for (int z = 4 * b.z - 1; z <= 4 * b.z + 4; ++z)
+        for (int y = 4 * b.y - 1; y <= 4 * b.y + 4; ++y)
+            for (int x = 4 * b.x - 1; x <= 4 * b.x + 4; ++x) {
                 const float v =
                     samples[static_cast<std::size_t>((at(z, 2) * n.y + at(y, 1)) * n.x + at(x, 0))];
                 if (std::isnan(v)) continue;
@@ -52,6 +52,14 @@ TEST(MinMaxGrid, AgreesWithItsDefinition) {
                         EXPECT_EQ(got.high, expected.high);
                     }
         }
+}
+
+TEST(MinMaxGrid, BricksGrowBeforeThereAreTooMany) {
+    EXPECT_EQ(MinMaxGrid::brickSamplesFor({1024, 1024, 1024}), 4);
+    EXPECT_EQ(MinMaxGrid::bricksFor({1024, 1024, 1024}), glm::ivec3(256));
+    EXPECT_EQ(MinMaxGrid::brickSamplesFor({1025, 1024, 1024}), 8);
+    EXPECT_EQ(MinMaxGrid::bricksFor({1025, 1024, 1024}), glm::ivec3(129, 128, 128));
+    EXPECT_EQ(MinMaxGrid::brickSamplesFor({2048, 2048, 2048}), 8) << "no overflow";
 }
 
 TEST(MinMaxGrid, BrickOfNanOnlyIsEmpty) {

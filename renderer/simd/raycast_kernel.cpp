@@ -1,0 +1,230 @@
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/raycast_kernel.cpp"
+#include <hwy/foreach_target.h>
+
+#include "simd/kernels.h"
+#include "simd/rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace voxsheet::simd::HWY_NAMESPACE {
+namespace {
+
+template <TexelFormat format>
+struct Caster {
+    const PictureJob& job;
+    Path path;
+    Float unitsPerDepth;
+    Light light;
+
+    Float chunkBegin(Float chunk) const {
+        return hn::MulAdd(chunk * num(static_cast<float>(job.chunkSamples)), path.spacing, path.span.begin);
+    }
+
+    // The samples at `depth` that stand for `length` of depth each.
+    HWY_INLINE void takeSample(Float depth, Float length, Mask near) {
+        const Vec3 at = indexAt(path.ray, depth);
+        Entry entry = classify(job.table, trilinear<format>(job.volume, at));
+        if (job.light.enabled) {
+            const Mask seen = both(entry.a > zero(), length > zero());
+            if (any(seen))
+                entry.rgb =
+                    pick(seen, lit(job.light, entry.rgb, normalAt(depth, at, seen, near), path.ray.toEye),
+                         entry.rgb);
+        }
+        const Float through = exp2OfNegative(zero() - entry.a * (length * unitsPerDepth));
+        const Float weight = light.transmittance * (num(1.0F) - through);
+        light.colour = light.colour + weight * entry.rgb;
+        light.transmittance = light.transmittance * through;
+    }
+
+    Vec3 normalAt(Float depth, const Vec3& at, Mask seen, Mask near) {
+        Vec3 normal{zero(), zero(), zero()};
+        const Mask behindCut = cutNormalAt(job, path, depth, near, normal);
+        const Mask inside = butNot(seen, behindCut);
+        if (!any(inside)) return normal;
+        return pick(
+            behindCut, normal,
+            times(job.light.viewFromGradient, gradientAt(job.volume, at, inside, job.light.betweenSamples)));
+    }
+
+    HWY_INLINE void takeWhole(Mask active, Float chunk, Float stretches) {
+        const Float first = chunk * num(static_cast<float>(job.chunkSamples));
+        const Float count = pick(active, stretches - first, zero());
+        for (int k = 0; k < job.chunkSamples; ++k) {
+            const Float step = num(static_cast<float>(k));
+            const Mask counts = step < count;
+            if (!any(counts)) break;
+            const Float depth = hn::MulAdd(first + step + num(0.5F), path.spacing, path.span.begin);
+            takeSample(depth, hn::IfThenElseZero(counts, path.spacing), none());
+        }
+    }
+
+    // The stretches [begin, end], as far as the object keeps them; gives the measures at their ends.
+    HWY_INLINE Float takeClipped(Mask active, Float begin, Float end, Float measureBegin) {
+        if (job.clip.binary) {
+            const Float middle = num(0.5F) * (begin + end);
+            const Mask kept = both(active, keptMeasure(job.clip, path.clip, middle) >= zero());
+            takeSample(middle, hn::IfThenElseZero(kept, end - begin), active);
+            return zero();
+        }
+        const Float measureEnd = keptMeasure(job.clip, path.clip, end);
+        const Mask first = measureBegin >= zero();
+        const Mask last = measureEnd >= zero();
+        const Float crossing = clipCrossing(begin, end, measureBegin, measureEnd);
+        const Float from = pick(first, begin, crossing);
+        const Float to = pick(last, end, crossing);
+        const Mask kept = both(active, either(first, last));
+        if (any(kept)) takeSample(num(0.5F) * (from + to), hn::IfThenElseZero(kept, to - from), active);
+        return measureEnd;
+    }
+
+    HWY_INLINE void takeClippedChunk(Mask active, Float chunk, Float stretches) {
+        const Float count =
+            pick(active, stretches - chunk * num(static_cast<float>(job.chunkSamples)), zero());
+        const Float begin = chunkBegin(chunk);
+        Float measure = keptMeasure(job.clip, path.clip, begin);
+        for (int k = 0; k < job.chunkSamples; ++k) {
+            const Mask counts = num(static_cast<float>(k)) < count;
+            if (!any(counts)) break;
+            const Float from = hn::MulAdd(num(static_cast<float>(k)), path.spacing, begin);
+            measure = takeClipped(counts, from, from + path.spacing, measure);
+        }
+    }
+
+    // Moves lanes on to their next chunk that may show something.
+    HWY_INLINE void seek(Mask seeking, Float& chunk, Float chunks) {
+        const Float samples = num(static_cast<float>(job.chunkSamples));
+        const float stretchVoxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
+        while (any(seeking)) {
+            const Float middle = hn::MulAdd(num(0.5F) * samples, path.spacing, chunkBegin(chunk));
+            const Float ahead = hn::IfThenElseZero(
+                seeking, stretchesAhead(job.cells, textureAt(path.ray, middle), stretchVoxels));
+            chunk = chunk + ahead;
+            seeking = both(seeking, both(ahead > zero(), chunk < chunks));
+        }
+    }
+
+    void takeWholeStretches(Mask active, Float stretches, Float chunks) {
+        Float chunk = zero();
+        active = both(active, chunks > zero());
+        while (any(active)) {
+            if (job.cells.marks != nullptr) {
+                seek(active, chunk, chunks);
+                active = both(active, chunk < chunks);
+                if (!any(active)) return;
+            }
+            takeWhole(active, chunk, stretches);
+            chunk = chunk + num(1.0F);
+            active = both(active, both(chunk<chunks, light.transmittance> num(kOpaque)));
+        }
+    }
+
+    // Moves lanes on to their next chunk of which the object keeps something; `partly`: maybe not all of it.
+    HWY_INLINE Mask seekKept(Mask seeking, Float& chunk, Float chunks) {
+        const Float length = num(static_cast<float>(job.chunkSamples)) * path.spacing;
+        const float stretchVoxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
+        Mask partly = none();
+        while (any(seeking)) {
+            const Float begin = chunkBegin(chunk);
+            const Float before = job.light.enabled ? path.depthPerVoxel : zero();
+            const auto verdict = clipVerdict(job.clip, path.clip, begin - before, begin + length);
+            const Float middle = hn::MulAdd(num(0.5F), length, begin);
+            const Float empty = stretchesAhead(job.cells, textureAt(path.ray, middle), stretchVoxels);
+            const Float free =
+                hn::Max(chunk + num(1.0F), hn::Floor((verdict.removedUntil - path.span.begin) / length));
+            const Float next = pick(verdict.removed, free, chunk + empty);
+            const Mask moves = both(seeking, next > chunk);
+            partly = either(partly, butNot(butNot(seeking, moves), verdict.kept));
+            chunk = pick(moves, next, chunk);
+            seeking = both(moves, chunk < chunks);
+        }
+        return partly;
+    }
+
+    void takeKeptStretches(Mask active, Float stretches, Float chunks) {
+        const Float length = num(static_cast<float>(job.chunkSamples)) * path.spacing;
+        Float from = num(-3.0e38F), to = num(3.0e38F);
+        boxDepths(job.clip.keptLow, job.clip.keptHigh, path.clip.textureOrigin, path.clip.textureDirection,
+                  from, to);
+        Float chunk = hn::Min(hn::Max(hn::Floor((from - path.span.begin) / length), zero()), chunks);
+        chunks = hn::Min(hn::Max(hn::Ceil((to - path.span.begin) / length), zero()), chunks);
+        active = both(active, chunk < chunks);
+        while (any(active)) {
+            const Mask partly = seekKept(active, chunk, chunks);
+            active = both(active, chunk < chunks);
+            if (!any(active)) return;
+            if (any(both(active, partly)))
+                takeClippedChunk(active, chunk, stretches);
+            else
+                takeWhole(active, chunk, stretches);
+            chunk = chunk + num(1.0F);
+            active = both(active, both(chunk<chunks, light.transmittance> num(kOpaque)));
+        }
+    }
+
+    void cast() {
+        const Mask hits = path.span.begin < path.span.end;
+        if (!any(hits)) return;
+        unitsPerDepth = path.ray.radiiPerDepth * num(job.unitsPerRadius);
+        const Float stretches =
+            pick(hits, hn::Floor((path.span.end - path.span.begin) / path.spacing), zero());
+        const Float chunks = hn::Ceil(stretches * num(1.0F / static_cast<float>(job.chunkSamples)));
+        if (job.clip.hasObject)
+            takeKeptStretches(hits, stretches, chunks);
+        else
+            takeWholeStretches(hits, stretches, chunks);
+        // The rest of the path is shorter than a whole stretch: its sample sits in its middle and counts for
+        // its length.
+        const Float begin = hn::MulAdd(stretches, path.spacing, path.span.begin);
+        if (job.clip.hasObject)
+            takeClipped(hits, begin, path.span.end, keptMeasure(job.clip, path.clip, begin));
+        else
+            takeSample(num(0.5F) * (begin + path.span.end), hn::IfThenElseZero(hits, path.span.end - begin),
+                       none());
+    }
+};
+
+template <TexelFormat format>
+void castRows(const PictureJob& job, int firstRow, int endRow) {
+    drawRows(job, firstRow, endRow, [&](int x, int y) HWY_ATTR {
+        Caster<format> caster{job, pathOf(job, x, y), zero(), {}};
+        caster.cast();
+        storePacket(job, x, y, caster.light.colour, num(1.0F) - caster.light.transmittance);
+    });
+}
+
+} // namespace
+
+void raycastRowsHere(const PictureJob& job, int firstRow, int endRow) {
+    switch (job.volume.format) {
+    case TexelFormat::R8:
+        return castRows<TexelFormat::R8>(job, firstRow, endRow);
+    case TexelFormat::R16:
+        return castRows<TexelFormat::R16>(job, firstRow, endRow);
+    case TexelFormat::R16F:
+        return castRows<TexelFormat::R16F>(job, firstRow, endRow);
+    case TexelFormat::R32F:
+        return castRows<TexelFormat::R32F>(job, firstRow, endRow);
+    }
+}
+
+} // namespace voxsheet::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace voxsheet::simd {
+
+HWY_EXPORT(raycastRowsHere);
+
+void raycastRows(const PictureJob& job, int firstRow, int endRow) {
+    HWY_DYNAMIC_DISPATCH(raycastRowsHere)(job, firstRow, endRow);
+}
+
+const char* instructionSet() {
+    return hwy::TargetName(static_cast<uint32_t>(hwy::SupportedTargets() & -hwy::SupportedTargets()));
+}
+
+} // namespace voxsheet::simd
+#endif

@@ -1,0 +1,335 @@
+// Trilinear samples, gradients, table entries and cells' marks of one packet.
+#if defined(VOXSHEET_SIMD_SAMPLING_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOXSHEET_SIMD_SAMPLING_INL_H
+#undef VOXSHEET_SIMD_SAMPLING_INL_H
+#else
+#define VOXSHEET_SIMD_SAMPLING_INL_H
+#endif
+
+#include "simd/lanes-inl.h"
+#include "simd/sampled_volume.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace voxsheet::simd::HWY_NAMESPACE {
+
+// Two texels that lie side by side, as floats; unscaled where texels are integers.
+struct Pair {
+    Float low, high;
+};
+
+template <TexelFormat format>
+constexpr int kShift = format == TexelFormat::R8     ? 0
+                       : format == TexelFormat::R32F ? 2
+                                                     : 1;
+
+template <TexelFormat format>
+constexpr float kTexelScale = format == TexelFormat::R8    ? 1.0F / 255.0F
+                              : format == TexelFormat::R16 ? 1.0F / 65535.0F
+                                                           : 1.0F;
+
+HWY_INLINE Float halfFloats(Int bits) {
+    const hn::Rebind<std::uint16_t, FloatTag> u16;
+    const hn::Rebind<hwy::float16_t, FloatTag> f16;
+    return hn::PromoteTo(kF, hn::BitCast(f16, hn::DemoteTo(u16, bits)));
+}
+
+template <TexelFormat format>
+HWY_INLINE Pair pairAt(const std::byte* base, const std::int32_t* offsets) {
+    if constexpr (format == TexelFormat::R32F) {
+        return {hn::BitCast(kF, loadWords<kShift<format>>(base, offsets)),
+                hn::BitCast(kF, loadWords<kShift<format>>(base + 4, offsets))};
+    } else if constexpr (format == TexelFormat::R8) {
+        const Int words = loadWords<kShift<format>>(base, offsets);
+        const Int mask = hn::Set(kI, 0xFF);
+        return {hn::ConvertTo(kF, hn::And(words, mask)),
+                hn::ConvertTo(kF, hn::And(hn::ShiftRight<8>(words), mask))};
+    } else {
+        const Int words = loadWords<kShift<format>>(base, offsets);
+        const Int mask = hn::Set(kI, 0xFFFF);
+        const Int low = hn::And(words, mask);
+        const Int high = hn::And(hn::ShiftRight<16>(words), mask);
+        if constexpr (format == TexelFormat::R16F)
+            return {halfFloats(low), halfFloats(high)};
+        else
+            return {hn::ConvertTo(kF, low), hn::ConvertTo(kF, high)};
+    }
+}
+
+// Where a packet samples: its lower corners, counted in texels, and the weights of the upper ones.
+struct Place {
+    HWY_ALIGN std::int32_t offsets[8];
+    Float x, y, z;
+};
+
+// On an axis that wraps, into [-1/2, n - 1/2); else the nearest place there.
+HWY_INLINE Float insideAxis(const SampledVolume& volume, int axis, Float at) {
+    const float n = volume.samples[axis];
+    if (volume.periodic[axis]) at = at - num(n) * hn::Floor((at + num(0.5F)) * num(1.0F / n));
+    return clampTo(at, -0.5F, n - 0.5F); // also NaN goes somewhere
+}
+
+HWY_INLINE Place placeOf(const SampledVolume& volume, const Vec3& at) {
+    const Float x = insideAxis(volume, 0, at.x) + num(1.0F);
+    const Float y = insideAxis(volume, 1, at.y) + num(1.0F);
+    const Float z = insideAxis(volume, 2, at.z) + num(1.0F);
+    const Int ix = truncated(x);
+    const Int iy = truncated(y);
+    const Int iz = truncated(z);
+    Place place;
+    const Int texel = ix + iy * hn::Set(kI, volume.rowTexels) + iz * hn::Set(kI, volume.sliceTexels);
+    hn::Store(texel, kI, place.offsets);
+    place.x = x - hn::ConvertTo(kF, ix);
+    place.y = y - hn::ConvertTo(kF, iy);
+    place.z = z - hn::ConvertTo(kF, iz);
+    return place;
+}
+
+// In a row of the lower corner moved by `texels`.
+template <TexelFormat format>
+HWY_INLINE Float rowAt(const SampledVolume& volume, const Place& place, std::ptrdiff_t texels) {
+    const Pair pair = pairAt<format>(volume.first + (texels << kShift<format>), place.offsets);
+    return mix(pair.low, pair.high, place.x);
+}
+
+template <TexelFormat format>
+HWY_INLINE Float trilinear(const SampledVolume& volume, const Vec3& at) {
+    const Place place = placeOf(volume, at);
+    const Float near =
+        mix(rowAt<format>(volume, place, 0), rowAt<format>(volume, place, volume.rowTexels), place.y);
+    const Float far = mix(rowAt<format>(volume, place, volume.sliceTexels),
+                          rowAt<format>(volume, place, volume.sliceTexels + volume.rowTexels), place.y);
+    return mix(near, far, place.z) * num(kTexelScale<format>);
+}
+
+/// The texel at index positions, as a texture with a linear filter gives it.
+HWY_INLINE Float texelAt(const SampledVolume& volume, const Vec3& at) {
+    switch (volume.format) {
+    case TexelFormat::R8:
+        return trilinear<TexelFormat::R8>(volume, at);
+    case TexelFormat::R16:
+        return trilinear<TexelFormat::R16>(volume, at);
+    case TexelFormat::R16F:
+        return trilinear<TexelFormat::R16F>(volume, at);
+    case TexelFormat::R32F:
+        break;
+    }
+    return trilinear<TexelFormat::R32F>(volume, at);
+}
+
+/// The texel of the nearest sample.
+HWY_INLINE Float nearestTexelAt(const SampledVolume& volume, const Vec3& at) {
+    const auto nearest = [&](int axis, Float position) {
+        return clampTo(hn::Floor(position + num(0.5F)), 0.0F, volume.samples[axis] - 1.0F);
+    };
+    return texelAt(volume, {nearest(0, at.x), nearest(1, at.y), nearest(2, at.z)});
+}
+
+// Of the row of the lower corner moved by `texels`: at x - 1, x and x + 1.
+struct Triple {
+    Float before, middle, after;
+};
+
+template <TexelFormat format>
+HWY_INLINE Triple tripleAt(const SampledVolume& volume, const Place& place, std::ptrdiff_t texels) {
+    Float a, b, c, d;
+    if constexpr (format == TexelFormat::R8) {
+        const Int words = loadWords<0>(volume.first + texels - 1, place.offsets);
+        const Int mask = hn::Set(kI, 0xFF);
+        a = hn::ConvertTo(kF, hn::And(words, mask));
+        b = hn::ConvertTo(kF, hn::And(hn::ShiftRight<8>(words), mask));
+        c = hn::ConvertTo(kF, hn::And(hn::ShiftRight<16>(words), mask));
+        d = hn::ConvertTo(kF, hn::And(hn::ShiftRight<24>(words), mask));
+    } else {
+        const Pair low = pairAt<format>(volume.first + ((texels - 1) << kShift<format>), place.offsets);
+        const Pair high = pairAt<format>(volume.first + ((texels + 1) << kShift<format>), place.offsets);
+        a = low.low;
+        b = low.high;
+        c = high.low;
+        d = high.high;
+    }
+    return {mix(a, b, place.x), mix(b, c, place.x), mix(c, d, place.x)};
+}
+
+// Twice the central differences of six taps, from the 32 samples that all six touch. Positions at least one
+// sample from the ends.
+template <TexelFormat format>
+HWY_INLINE Vec3 innerGradient(const SampledVolume& volume, const Vec3& at) {
+    const Place place = placeOf(volume, at);
+    const std::ptrdiff_t row = volume.rowTexels;
+    const std::ptrdiff_t slice = volume.sliceTexels;
+    const Triple r00 = tripleAt<format>(volume, place, 0);
+    const Triple r10 = tripleAt<format>(volume, place, row);
+    const Triple r01 = tripleAt<format>(volume, place, slice);
+    const Triple r11 = tripleAt<format>(volume, place, slice + row);
+    const auto bilinear = [&](Float v00, Float v10, Float v01, Float v11) {
+        return mix(mix(v00, v10, place.y), mix(v01, v11, place.y), place.z);
+    };
+    Vec3 twice;
+    twice.x = bilinear(r00.after - r00.before, r10.after - r10.before, r01.after - r01.before,
+                       r11.after - r11.before);
+    const Float below0 = rowAt<format>(volume, place, -row);
+    const Float below1 = rowAt<format>(volume, place, slice - row);
+    const Float above0 = rowAt<format>(volume, place, 2 * row);
+    const Float above1 = rowAt<format>(volume, place, slice + 2 * row);
+    twice.y = bilinear(r10.middle - below0, above0 - r00.middle, r11.middle - below1, above1 - r01.middle);
+    const Float before0 = rowAt<format>(volume, place, -slice);
+    const Float before1 = rowAt<format>(volume, place, row - slice);
+    const Float after0 = rowAt<format>(volume, place, 2 * slice);
+    const Float after1 = rowAt<format>(volume, place, row + 2 * slice);
+    twice.z = bilinear(r01.middle - before0, r11.middle - before1, after0 - r00.middle, after1 - r10.middle);
+    return twice;
+}
+
+HWY_INLINE Float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+HWY_INLINE Vec3 movedTo(Vec3 v, int axis, Float value) {
+    (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = value;
+    return v;
+}
+
+// Difference per voxel along one axis, by two taps a voxel to both sides, which do not leave the samples
+// unless the axis wraps.
+HWY_INLINE Float slopeAt(const SampledVolume& volume, const Vec3& at, int axis) {
+    const Float here = component(at, axis);
+    Float low = here - num(1.0F);
+    Float high = here + num(1.0F);
+    if (!volume.periodic[axis]) {
+        low = hn::Max(low, zero());
+        high = hn::Min(high, num(volume.samples[axis] - 1.0F));
+    }
+    const Float distance = high - low;
+    const Float difference =
+        texelAt(volume, movedTo(at, axis, high)) - texelAt(volume, movedTo(at, axis, low));
+    return pick(distance > zero(), difference / distance, zero());
+}
+
+// The same, interpolated between its values at the two samples beside each point: what a gradient texture
+// holds.
+HWY_INLINE Float slopeBetweenSamples(const SampledVolume& volume, const Vec3& at, int axis) {
+    const Float last = num(volume.samples[axis] - 1.0F);
+    Float here = component(at, axis);
+    if (!volume.periodic[axis]) here = hn::Min(hn::Max(here, zero()), last);
+    const Float before = hn::Floor(here);
+    const Float after = volume.periodic[axis] ? before + num(1.0F) : hn::Min(before + num(1.0F), last);
+    return mix(slopeAt(volume, movedTo(at, axis, before), axis),
+               slopeAt(volume, movedTo(at, axis, after), axis), here - before);
+}
+
+inline HWY_NOINLINE Vec3 outerGradient(const SampledVolume& volume, const Vec3& at, bool betweenSamples) {
+    const auto slope = [&](int axis) {
+        return betweenSamples ? slopeBetweenSamples(volume, at, axis) : slopeAt(volume, at, axis);
+    };
+    return {slope(0), slope(1), slope(2)};
+}
+
+/// Differences per voxel, up to a common positive factor, of the lanes of the mask. Within a voxel of the
+/// ends it matters whether they are taken at samples and interpolated between them, or about the points
+/// themselves.
+HWY_INLINE Vec3 gradientAt(const SampledVolume& volume, const Vec3& at, Mask wanted, bool betweenSamples) {
+    const auto innerAxis = [&](int axis, Float position) {
+        return both(position >= num(1.0F), position <= num(volume.samples[axis] - 2.0F));
+    };
+    const Mask inner = both(both(innerAxis(0, at.x), innerAxis(1, at.y)), innerAxis(2, at.z));
+    if (any(butNot(wanted, inner))) return outerGradient(volume, at, betweenSamples);
+    const float middle[3] = {1.0F, 1.0F, 1.0F};
+    const Vec3 safe = pick(inner, at, spread(middle));
+    switch (volume.format) {
+    case TexelFormat::R8:
+        return innerGradient<TexelFormat::R8>(volume, safe);
+    case TexelFormat::R16:
+        return innerGradient<TexelFormat::R16>(volume, safe);
+    case TexelFormat::R16F:
+        return innerGradient<TexelFormat::R16F>(volume, safe);
+    case TexelFormat::R32F:
+        break;
+    }
+    return innerGradient<TexelFormat::R32F>(volume, safe);
+}
+
+struct Entry {
+    Vec3 rgb;
+    Float a; ///< extinction
+};
+
+HWY_INLINE Entry entryAt(const float* entries, Int index) {
+    HWY_ALIGN std::int32_t offsets[8];
+    hn::Store(index, kI, offsets);
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
+    const auto two = [&](int a, int b) {
+        const __m128 low = _mm_loadu_ps(entries + 4 * static_cast<std::ptrdiff_t>(offsets[a]));
+        const __m128 high = _mm_loadu_ps(entries + 4 * static_cast<std::ptrdiff_t>(offsets[b]));
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+    };
+    const __m256 r0 = two(0, 4), r1 = two(1, 5), r2 = two(2, 6), r3 = two(3, 7);
+    const __m256 t0 = _mm256_unpacklo_ps(r0, r1), t1 = _mm256_unpackhi_ps(r0, r1);
+    const __m256 t2 = _mm256_unpacklo_ps(r2, r3), t3 = _mm256_unpackhi_ps(r2, r3);
+    return {{Float{_mm256_shuffle_ps(t0, t2, 0x44)}, Float{_mm256_shuffle_ps(t0, t2, 0xEE)},
+             Float{_mm256_shuffle_ps(t1, t3, 0x44)}},
+            Float{_mm256_shuffle_ps(t1, t3, 0xEE)}};
+#else
+    const auto* base = reinterpret_cast<const std::byte*>(entries);
+    const auto channel = [&](int i) { return hn::BitCast(kF, loadWords<4>(base + 4 * i, offsets)); };
+    return {{channel(0), channel(1), channel(2)}, channel(3)};
+#endif
+}
+
+HWY_INLINE Float scaledValue(int scale, Float value) {
+    if (scale == 1) return hn::Log2(kF, hn::Max(value, num(1e-37F)));
+    if (scale == 2) {
+        const Float magnitude = hn::Abs(value);
+        const Float beyond = hn::CopySign(num(1.0F) + hn::Log(kF, hn::Max(magnitude, num(1.0F))), value);
+        return pick(magnitude <= num(1.0F), value, beyond);
+    }
+    return value;
+}
+
+/// Chromaticity and extinction of texels; nothing where they are NaN.
+HWY_INLINE Entry classify(const SampledTable& table, Float texel) {
+    const Mask absent = isNan(texel);
+    const Float known = pick(absent, zero(), texel);
+    const Float mapped = scaledValue(
+        table.scale, hn::MulAdd(known, num(table.mappedFromTexel[0]), num(table.mappedFromTexel[1])));
+    const Float entry =
+        clampTo(hn::MulAdd(mapped, num(table.entryFromMapped[0]), num(table.entryFromMapped[1])), 0.0F,
+                table.lastEntry);
+    Entry result = entryAt(table.entries, truncated(entry));
+    result.a = hn::IfThenZeroElse(absent, result.a);
+    return result;
+}
+
+// The cell of a point of the texture frame.
+HWY_INLINE Int cellAt(const SampledCells& cells, const Vec3& position) {
+    const auto onAxis = [&](int axis, Float at) {
+        if (cells.periodic[axis]) at = at - hn::Floor(at);
+        const Float cell =
+            clampTo(at * num(cells.cellsPerTexture[axis]), 0.0F, static_cast<float>(cells.cells[axis] - 1));
+        return truncated(cell);
+    };
+    const Int x = onAxis(0, position.x);
+    const Int y = onAxis(1, position.y);
+    const Int z = onAxis(2, position.z);
+    return x + (y + z * hn::Set(kI, cells.cells[1])) * hn::Set(kI, cells.cells[0]);
+}
+
+/// From stretches with their middles there to the next that may show something, in stretches; 0: they may
+/// themselves.
+HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, float stretchVoxels) {
+    if (cells.marks == nullptr) return zero();
+    HWY_ALIGN std::int32_t offsets[8];
+    hn::Store(cellAt(cells, middle), kI, offsets);
+    const Int words = loadWords<0>(reinterpret_cast<const std::byte*>(cells.marks), offsets);
+    const Float mark = hn::ConvertTo(kF, hn::And(words, hn::Set(kI, 0xFF)));
+    const Float ahead = num(1.0F) + hn::Floor((mark - num(1.0F)) * num(cells.cellSamples / stretchVoxels));
+    return pick(mark == zero(), zero(), ahead);
+}
+
+/// Bound of the texels (of MIP) in the cell of a point.
+HWY_INLINE Float largestInCell(const SampledCells& cells, const Vec3& position) {
+    HWY_ALIGN std::int32_t offsets[8];
+    hn::Store(cellAt(cells, position), kI, offsets);
+    return hn::BitCast(kF, loadWords<2>(reinterpret_cast<const std::byte*>(cells.largest), offsets));
+}
+
+} // namespace voxsheet::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,242 @@
+#include "techniques/simd_rays.h"
+
+#include "stages/gradient_frame.h"
+#include "techniques/isosurface/surface_texels.h"
+#include "volume/parallel_for.h"
+
+#include <algorithm>
+#include <span>
+
+namespace voxsheet {
+namespace {
+
+constexpr std::size_t kCachedTables = 64;
+constexpr int kRowsPerTask = 8;
+
+template <std::size_t n, typename Vector>
+void put(float (&to)[n], const Vector& from) {
+    for (std::size_t i = 0; i < n; ++i)
+        to[i] = static_cast<float>(from[static_cast<int>(i)]);
+}
+
+void putPlaced(float (&to)[12], const glm::mat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            to[column * 3 + row] = matrix[column][row];
+}
+
+void putMatrix(float (&to)[9], const glm::mat3& matrix) {
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            to[column * 3 + row] = matrix[column][row];
+}
+
+simd::RayNumbers raysOf(const RayFrame& frame, glm::ivec2 size) {
+    simd::RayNumbers rays{};
+    put(rays.pictureOfPixel, glm::dvec4(2.0 * frame.pictureHalf / glm::dvec2(size), -frame.pictureHalf));
+    put(rays.origin, frame.origin);
+    put(rays.originX, frame.originX);
+    put(rays.originY, frame.originY);
+    put(rays.direction, frame.direction);
+    put(rays.directionX, frame.directionX);
+    put(rays.directionY, frame.directionY);
+    rays.nearest = static_cast<float>(frame.nearest);
+    rays.lengthPerspective = frame.perspective ? 1.0F : 0.0F;
+    put(rays.boxLow, frame.boxLow);
+    put(rays.boxHigh, frame.boxHigh);
+    return rays;
+}
+
+simd::SampledVolume sampledVolume(const HostTexels& texels) {
+    simd::SampledVolume volume;
+    volume.first = texels.first();
+    volume.format = texels.format();
+    volume.rowTexels = static_cast<std::int32_t>(texels.rowTexels());
+    volume.sliceTexels = static_cast<std::int32_t>(texels.sliceTexels());
+    put(volume.samples, texels.dims());
+    for (int axis = 0; axis < 3; ++axis)
+        volume.periodic[axis] = texels.periodic()[axis];
+    return volume;
+}
+
+simd::SampledTable sampledTable(const std::vector<glm::vec4>& entries, const TransferTable& table,
+                                const ResidentVolume& volume) {
+    const auto mapping = classificationMapping(table, volume.valueScale, volume.valueOffset);
+    simd::SampledTable sampled;
+    sampled.entries = &entries.front().x;
+    sampled.scale = static_cast<int>(table.scale);
+    put(sampled.mappedFromTexel, mapping.mappedFromTexel);
+    put(sampled.entryFromMapped, mapping.entryFromMapped);
+    sampled.lastEntry = static_cast<float>(entries.size() - 1);
+    return sampled;
+}
+
+simd::SampledCells sampledCells(const EmptySpaceStage::HostCells& cells, const ResidentVolume& volume) {
+    const auto layout = CellLayout::of(volume.dims);
+    simd::SampledCells sampled;
+    sampled.marks = cells.marks.empty() ? nullptr : cells.marks.data();
+    sampled.largest = cells.largest.empty() ? nullptr : cells.largest.data();
+    sampled.cellSamples = static_cast<float>(layout.cellSamples);
+    for (int axis = 0; axis < 3; ++axis) {
+        sampled.cellsPerTexture[axis] =
+            static_cast<float>(volume.dims[axis]) / static_cast<float>(layout.cellSamples);
+        sampled.cells[axis] = layout.cells[axis];
+        sampled.periodic[axis] = volume.meta->grid.periodic[axis];
+    }
+    return sampled;
+}
+
+simd::ClipNumbers clipOf(const DrawRequest& request) {
+    const auto& tile = request.tile;
+    const auto grid = placedGrid(request.volumes.volume.meta->grid, tile.periodic);
+    simd::ClipNumbers clip;
+    const auto planes = clipPlanesInTexture(tile.clip.planes, grid);
+    clip.planeCount = static_cast<int>(planes.size());
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        put(clip.planes[i], planes[i]);
+        put(clip.cutNormals[i], glm::dmat3(tile.camera.viewFromWorld) * tile.clip.planes[i].normal);
+    }
+    const auto* object = request.volumes.clipObject;
+    if (object == nullptr) return clip;
+    const auto frame = clipObjectFrame(tile, grid, *object);
+    clip.hasObject = true;
+    clip.binary = tile.clip.object->binary;
+    clip.distances = sampledVolume(*object->host);
+    putPlaced(clip.clipFromTexture, frame.clipFromTexture);
+    putMatrix(clip.objectFromTexture, frame.objectFromTexture);
+    put(clip.measureFromTexel, frame.measureFromTexel);
+    clip.nearestSampleSlack = frame.nearestSampleSlack;
+    putMatrix(clip.viewFromClipGradient, frame.viewFromClipGradient);
+    put(clip.keptLow, frame.keptLow);
+    put(clip.keptHigh, frame.keptHigh);
+    return clip;
+}
+
+simd::LightNumbers lightOf(const TileSpec& tile, const ResidentVolume& volume) {
+    const auto& shading = tile.shading;
+    simd::LightNumbers light;
+    if (!shading.enabled) return light;
+    light.enabled = true;
+    put(light.material, glm::dvec4(shading.ambient, shading.diffuse, shading.specular, shading.shininess));
+    light.betweenSamples = shading.gradient == GradientSource::Texture;
+    light.headLight = static_cast<float>(shading.headLight);
+    light.lightCount = static_cast<int>(shading.lightsView.size());
+    for (std::size_t i = 0; i < shading.lightsView.size(); ++i)
+        put(light.lights[i], glm::dvec4(shading.lightsView[i], shading.lightIntensity));
+    putMatrix(light.viewFromGradient,
+              viewFromGradient(viewFromVoxels(tile.camera.viewFromWorld, volume.meta->grid, volume.dims)));
+    return light;
+}
+
+std::span<float> drawnRows(std::vector<float>& picture, const DrawRequest& request) {
+    const auto rows = request.rows.within(request.tile.sizePixels);
+    const auto row = static_cast<std::size_t>(request.tile.sizePixels.x) * 4;
+    return std::span(picture).subspan(row * static_cast<std::size_t>(rows.first),
+                                      row * static_cast<std::size_t>(rows.end - rows.first));
+}
+
+simd::Kernel kernelOf(Technique technique) {
+    if (technique == Technique::Isosurface) return simd::isosurfaceRows;
+    return technique == Technique::Mip ? simd::mipRows : simd::raycastRows;
+}
+
+} // namespace
+
+SimdRays::SimdRays() : tables_(kCachedTables) {}
+
+const std::vector<glm::vec4>& SimdRays::tableOf(const std::shared_ptr<const TransferTable>& table) {
+    const auto* entries = tables_.find(
+        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
+    return entries != nullptr ? *entries : tables_.insert(table, shaderTable(*table));
+}
+
+void SimdRays::setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request) {
+    const auto& [tile, volumes, frame, target, rows] = request;
+    const auto texels = surfaceTexels(tile.isosurface, volumes.volume);
+    surfaces.count = static_cast<int>(texels.texels.size());
+    for (std::size_t i = 0; i < texels.texels.size(); ++i) {
+        surfaces.texels[i] = texels.texels[i];
+        put(surfaces.colours[i], texels.colours[i]);
+    }
+    surfaces.caps = tile.isosurface.caps;
+    surfaces.plainTest = tile.isosurface.method == IsosurfaceMethod::AlphaTest;
+    surfaces.tolerance = texels.plainTestTolerance;
+    put(surfaces.capTexels, texels.cap);
+    put(surfaces.mirroredCapTexels, texels.mirroredCap);
+    if (volumes.colours == nullptr) return;
+    const auto& other = volumes.colours->meta->grid;
+    const auto& table = tile.isosurface.colouredBy->transfer;
+    const auto grid = placedGrid(volumes.volume.meta->grid, tile.periodic);
+    const auto box = boxIndex(other);
+    surfaces.hasColours = true;
+    surfaces.colours3d = sampledVolume(*volumes.colours->host);
+    surfaces.colourTable = sampledTable(tableOf(table), *table, *volumes.colours);
+    putPlaced(surfaces.colourFromTexture,
+              glm::mat4(glm::inverse(worldFromTexture(other)) * worldFromTexture(grid)));
+    put(surfaces.colourBoxLow, (box.low + 0.5) / glm::dvec3(other.dims));
+    put(surfaces.colourBoxHigh, (box.high + 0.5) / glm::dvec3(other.dims));
+}
+
+simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& request) {
+    const auto& [tile, volumes, frame, target, rows] = request;
+    const auto& volume = volumes.volume;
+    simd::PictureJob job;
+    job.width = tile.sizePixels.x;
+    job.height = tile.sizePixels.y;
+    job.pixels = pixels_.data();
+    job.solids = volumes.solids != nullptr ? solids_.data() : nullptr;
+    job.rays = raysOf(frame, tile.sizePixels);
+    job.clip = clipOf(request);
+    job.volume = sampledVolume(*volume.host);
+    job.sampleDistanceVoxels = static_cast<float>(tile.sampleDistanceVoxels);
+    job.light = lightOf(tile, volume);
+    job.unitsPerRadius = static_cast<float>(frame.radiusWorld / tile.unitLengthWorld);
+    const int reach = tile.technique == Technique::Mip ? kLongReach : kShortReach;
+    const int longest = chunkSamples(tile.sampleDistanceVoxels, reach);
+    // Near a clip object's surface samples are dear, and short chunks keep close to it.
+    const bool keepsClose = tile.technique == Technique::Raycast && volumes.clipObject != nullptr;
+    job.chunkSamples = keepsClose ? std::min(4, longest) : longest;
+    if (tile.technique == Technique::Isosurface) setSurfaces(job.surfaces, request);
+    job.table = sampledTable(tableOf(tile.transfer), *tile.transfer, volume);
+    job.texelSign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
+    const float opacity = largestOpacity(*tile.transfer);
+    job.opacityScale = opacity > 0.0F ? 1.0F / opacity : 0.0F;
+    if (!stages.skipEmptySpace) return job;
+    auto& emptySpace = stages.emptySpace;
+    switch (tile.technique) {
+    case Technique::Isosurface:
+        job.cells = sampledCells(
+            emptySpace.crossedOnHost(surfaceTexels(tile.isosurface, volume).values, volume), volume);
+        break;
+    case Technique::Mip:
+        job.cells = sampledCells(emptySpace.largestOnHost(volume), volume);
+        break;
+    default:
+        job.cells = sampledCells(emptySpace.occupiedOnHost(tile.transfer, volume, kShortReach), volume);
+    }
+    return job;
+}
+
+void SimdRays::readSolids(const DrawRequest& request) {
+    const auto rows = request.rows.within(request.tile.sizePixels);
+    solids_.resize(pixels_.size());
+    request.volumes.solids->download(rows.first, rows.end, GL_RGBA, GL_FLOAT,
+                                     std::as_writable_bytes(drawnRows(solids_, request)));
+}
+
+void SimdRays::draw(SharedStages& stages, const DrawRequest& request) {
+    const auto size = request.tile.sizePixels;
+    const auto rows = request.rows.within(size);
+    pixels_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
+    if (request.volumes.solids != nullptr) readSolids(request);
+    const auto job = jobFor(stages, request);
+    const auto kernel = kernelOf(request.tile.technique);
+    parallelFor((rows.end - rows.first + kRowsPerTask - 1) / kRowsPerTask, 1, [&](long begin, long end) {
+        const auto rowOf = [&](long task) { return rows.first + static_cast<int>(task) * kRowsPerTask; };
+        kernel(job, rowOf(begin), std::min(rowOf(end), rows.end));
+    });
+    request.target.upload({0, rows.first, 0}, {size.x, rows.end - rows.first, 1}, GL_RGBA, GL_FLOAT,
+                          std::as_bytes(drawnRows(pixels_, request)));
+}
+
+} // namespace voxsheet

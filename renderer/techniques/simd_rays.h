@@ -1,0 +1,33 @@
+// Draws with the kernels of simd/ what they can draw, where rays are marched by the processor (the workaround
+// "simd-rays").
+#pragma once
+
+#include "simd/kernels.h"
+#include "stages/recent_cache.h"
+#include "stages/shared_stages.h"
+
+#include <memory>
+#include <vector>
+
+namespace voxsheet {
+
+/// Belongs to the render thread, which its kernels help with all cores.
+class SimdRays {
+public:
+    SimdRays();
+
+    /// As TechniqueSet::draw, of pictures with marchesRays() whose volumes are all in host memory.
+    void draw(SharedStages& stages, const DrawRequest& request);
+
+private:
+    const std::vector<glm::vec4>& tableOf(const std::shared_ptr<const TransferTable>& table);
+    [[nodiscard]] simd::PictureJob jobFor(SharedStages& stages, const DrawRequest& request);
+    void readSolids(const DrawRequest& request);
+    void setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request);
+
+    RecentCache<std::shared_ptr<const TransferTable>, std::vector<glm::vec4>> tables_;
+    std::vector<float> pixels_; ///< rgba
+    std::vector<float> solids_; ///< the same of DrawVolumes::solids
+};
+
+} // namespace voxsheet
