@@ -31,7 +31,8 @@ TEST(NoEgl, TheErrorNamesThePackages) {
 
 TEST(Environment, SwitchesWorkaroundsOff) {
     if (!haveOpenGl()) GTEST_SKIP() << "no EGL device gives OpenGL 4.5";
-    setenv("VOXSHEET_DISABLE_WORKAROUNDS", "r8-as-r16,clear-before-compute,coarse-filter-weights,simd-rays", 1);
+    setenv("VOXSHEET_DISABLE_WORKAROUNDS", "r8-as-r16,clear-before-compute,coarse-filter-weights,simd-rays",
+           1);
     EXPECT_TRUE(Context().device().workarounds.empty());
     setenv("VOXSHEET_DISABLE_WORKAROUNDS", "warp-drive", 1);
     EXPECT_THROW(Context(), InvalidInput);
