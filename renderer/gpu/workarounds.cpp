@@ -50,7 +50,7 @@ Workarounds workaroundsFor(std::string_view renderer, std::string_view disabled)
     if (renderer.find("llvmpipe") != std::string_view::npos) {
         workarounds.clearBeforeCompute = true;
         workarounds.r8AsR16 = true;
-        workarounds.simdRays = true;
+        workarounds.simdRays = VOXSHEET_SIMD != 0;
     }
     workarounds.coarseFilterWeights = !isSoftwareRenderer(std::string(renderer));
     while (!disabled.empty()) {

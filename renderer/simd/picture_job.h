@@ -62,6 +62,19 @@ struct SurfaceNumbers {
     float colourBoxLow[3], colourBoxHigh[3];
 };
 
+constexpr int kMaxLayerCount = 3;
+
+/// A volume blended with the drawn one (stages/layers.glsl).
+struct LayerNumbers {
+    SampledVolume volume;
+    SampledTable table;
+    SampledCells cells;
+    float fromTexture[12];
+    float boxLow[3], boxHigh[3];
+    float density;
+    float viewFromGradient[9];
+};
+
 struct PictureJob {
     int width = 0;
     int height = 0;
@@ -77,8 +90,11 @@ struct PictureJob {
     int chunkSamples = 1;
     LightNumbers light;
     float unitsPerRadius = 1.0F; ///< ray casting
-    SurfaceNumbers surfaces;     ///< isosurfaces
-    float texelSign = 1.0F;      ///< maximum projection
+    int layerCount = 0;          ///< ray casting
+    LayerNumbers layers[kMaxLayerCount];
+    float ownDensity = 1.0F; ///< where there are layers
+    SurfaceNumbers surfaces; ///< isosurfaces
+    float texelSign = 1.0F;  ///< maximum projection
     float opacityScale = 1.0F;
 };
 

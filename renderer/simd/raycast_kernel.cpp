@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include "simd/kernels.h"
+#include "simd/layers-inl.h"
 #include "simd/rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +27,9 @@ struct Caster {
     HWY_INLINE void takeSample(Float depth, Float length, Mask near) {
         const Vec3 at = indexAt(path.ray, depth);
         Entry entry = classify(job.table, trilinear<format>(job.volume, at));
-        if (job.light.enabled) {
+        if (job.layerCount > 0)
+            entry = blended(entry, depth, at, length, near);
+        else if (job.light.enabled) {
             const Mask seen = both(entry.a > zero(), length > zero());
             if (any(seen))
                 entry.rgb =
@@ -42,11 +45,48 @@ struct Caster {
     Vec3 normalAt(Float depth, const Vec3& at, Mask seen, Mask near) {
         Vec3 normal{zero(), zero(), zero()};
         const Mask behindCut = cutNormalAt(job, path, depth, near, normal);
+        return ownNormal(at, seen, behindCut, normal);
+    }
+
+    Vec3 ownNormal(const Vec3& at, Mask seen, Mask behindCut, const Vec3& cutNormal) const {
         const Mask inside = butNot(seen, behindCut);
-        if (!any(inside)) return normal;
+        if (!any(inside)) return cutNormal;
         return pick(
-            behindCut, normal,
+            behindCut, cutNormal,
             times(job.light.viewFromGradient, gradientAt(job.volume, at, inside, job.light.betweenSamples)));
+    }
+
+    // Behind a cut all volumes have its normal.
+    HWY_NOINLINE Entry blended(Entry entry, Float depth, const Vec3& at, Float length, Mask near) {
+        const Mask counts = length > zero();
+        LayerLight layerLight{path.ray.toEye, none(), {zero(), zero(), zero()}};
+        if (job.light.enabled && any(counts)) {
+            layerLight.behindCut = cutNormalAt(job, path, depth, near, layerLight.cutNormal);
+            const Mask seen = both(entry.a > zero(), counts);
+            if (any(seen))
+                entry.rgb =
+                    pick(seen,
+                         lit(job.light, entry.rgb,
+                             ownNormal(at, seen, layerLight.behindCut, layerLight.cutNormal), path.ray.toEye),
+                         entry.rgb);
+        }
+        entry.a = entry.a * num(job.ownDensity);
+        const Vec3 position = textureAt(path.ray, depth);
+        for (int i = 0; i < job.layerCount; ++i)
+            blendLayer(entry, job, job.layers[i], position, counts, layerLight);
+        return entry;
+    }
+
+    // From chunks with their middles there to the next that may show something, in chunks; 0: they may
+    // themselves.
+    HWY_INLINE Float chunksAhead(const Vec3& middle) const {
+        const float voxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
+        Float ahead = stretchesAhead(job.cells, middle, voxels);
+        if (job.layerCount == 0) return ahead;
+        const Vec3 chunk = num(static_cast<float>(job.chunkSamples)) * path.spacing * path.ray.direction;
+        for (int i = 0; i < job.layerCount && any(ahead > zero()); ++i)
+            ahead = hn::Min(ahead, layerStretchesAhead(job.layers[i], middle, chunk));
+        return ahead;
     }
 
     HWY_INLINE void takeWhole(Mask active, Float chunk, Float stretches) {
@@ -96,11 +136,9 @@ struct Caster {
     // Moves lanes on to their next chunk that may show something.
     HWY_INLINE void seek(Mask seeking, Float& chunk, Float chunks) {
         const Float samples = num(static_cast<float>(job.chunkSamples));
-        const float stretchVoxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
         while (any(seeking)) {
             const Float middle = hn::MulAdd(num(0.5F) * samples, path.spacing, chunkBegin(chunk));
-            const Float ahead = hn::IfThenElseZero(
-                seeking, stretchesAhead(job.cells, textureAt(path.ray, middle), stretchVoxels));
+            const Float ahead = hn::IfThenElseZero(seeking, chunksAhead(textureAt(path.ray, middle)));
             chunk = chunk + ahead;
             seeking = both(seeking, both(ahead > zero(), chunk < chunks));
         }
@@ -124,14 +162,13 @@ struct Caster {
     // Moves lanes on to their next chunk of which the object keeps something; `partly`: maybe not all of it.
     HWY_INLINE Mask seekKept(Mask seeking, Float& chunk, Float chunks) {
         const Float length = num(static_cast<float>(job.chunkSamples)) * path.spacing;
-        const float stretchVoxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
         Mask partly = none();
         while (any(seeking)) {
             const Float begin = chunkBegin(chunk);
             const Float before = job.light.enabled ? path.depthPerVoxel : zero();
             const auto verdict = clipVerdict(job.clip, path.clip, begin - before, begin + length);
             const Float middle = hn::MulAdd(num(0.5F), length, begin);
-            const Float empty = stretchesAhead(job.cells, textureAt(path.ray, middle), stretchVoxels);
+            const Float empty = chunksAhead(textureAt(path.ray, middle));
             const Float free =
                 hn::Max(chunk + num(1.0F), hn::Floor((verdict.removedUntil - path.span.begin) / length));
             const Float next = pick(verdict.removed, free, chunk + empty);
@@ -210,6 +247,8 @@ void raycastRowsHere(const PictureJob& job, int firstRow, int endRow) {
     }
 }
 
+const char* instructionSetHere() { return hwy::TargetName(HWY_TARGET); }
+
 } // namespace voxsheet::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -217,14 +256,13 @@ HWY_AFTER_NAMESPACE();
 namespace voxsheet::simd {
 
 HWY_EXPORT(raycastRowsHere);
+HWY_EXPORT(instructionSetHere);
 
 void raycastRows(const PictureJob& job, int firstRow, int endRow) {
     HWY_DYNAMIC_DISPATCH(raycastRowsHere)(job, firstRow, endRow);
 }
 
-const char* instructionSet() {
-    return hwy::TargetName(static_cast<uint32_t>(hwy::SupportedTargets() & -hwy::SupportedTargets()));
-}
+const char* instructionSet() { return HWY_DYNAMIC_DISPATCH(instructionSetHere)(); }
 
 } // namespace voxsheet::simd
 #endif

@@ -313,14 +313,19 @@ HWY_INLINE Int cellAt(const SampledCells& cells, const Vec3& position) {
 
 /// From stretches with their middles there to the next that may show something, in stretches; 0: they may
 /// themselves.
-HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, float stretchVoxels) {
+/// \param stretchesPerCell  width of a cell in stretches
+HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, Float stretchesPerCell) {
     if (cells.marks == nullptr) return zero();
     HWY_ALIGN std::int32_t offsets[8];
     hn::Store(cellAt(cells, middle), kI, offsets);
     const Int words = loadWords<0>(reinterpret_cast<const std::byte*>(cells.marks), offsets);
     const Float mark = hn::ConvertTo(kF, hn::And(words, hn::Set(kI, 0xFF)));
-    const Float ahead = num(1.0F) + hn::Floor((mark - num(1.0F)) * num(cells.cellSamples / stretchVoxels));
+    const Float ahead = num(1.0F) + hn::Floor((mark - num(1.0F)) * stretchesPerCell);
     return pick(mark == zero(), zero(), ahead);
+}
+
+HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, float stretchVoxels) {
+    return stretchesAhead(cells, middle, num(cells.cellSamples / stretchVoxels));
 }
 
 /// Bound of the texels (of MIP) in the cell of a point.

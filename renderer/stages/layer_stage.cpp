@@ -31,17 +31,6 @@ glm::dmat4 layerFromTexture(const ResidentVolume& volume, const PeriodicWindow& 
     return glm::inverse(worldFromTexture(layer.meta->grid)) * worldFromTexture(placed);
 }
 
-/// Samples of the layer, on any axis, that half a stretch in any direction covers at most.
-int reachSamples(const ResidentVolume& volume, const ResidentVolume& layer, double stretchVoxels) {
-    const auto rows = glm::transpose(glm::dmat3(layerFromTexture(volume, {}, layer)));
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-        largest = std::max(largest, glm::length(rows[axis] / glm::dvec3(volume.dims)) * layer.dims[axis]);
-    const int all = std::max({layer.dims.x, layer.dims.y, layer.dims.z});
-    return std::max(kShortReach,
-                    static_cast<int>(std::min(std::ceil(0.5 * stretchVoxels * largest), double(all))));
-}
-
 void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, const ResidentVolume& volume,
               const ResidentVolume& resident) {
     const auto& layer = tile.layers.volumes[i];
@@ -50,19 +39,17 @@ void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, 
         program.set(member(i, name).c_str(), value);
     };
     const auto mapping = classificationMapping(*layer.transfer, resident.valueScale, resident.valueOffset);
-    const auto box = boxIndex(grid);
-    set("fromTexture", glm::mat4(layerFromTexture(volume, tile.periodic, resident)));
-    set("boxLow", glm::vec3((box.low + 0.5) / glm::dvec3(grid.dims) - kFaceSlack));
-    set("boxHigh", glm::vec3((box.high + 0.5) / glm::dvec3(grid.dims) + kFaceSlack));
+    const auto placement = placementOf(tile, i, volume, resident);
+    set("fromTexture", glm::mat4(placement.fromTexture));
+    set("boxLow", glm::vec3(placement.boxLow));
+    set("boxHigh", glm::vec3(placement.boxHigh));
     set("voxels", glm::vec3(resident.dims));
     set("periodic", glm::vec3(grid.periodic));
     set("mappedFromTexel", glm::vec2(mapping.mappedFromTexel));
     set("entryFromMapped", glm::vec2(mapping.entryFromMapped));
     set("lastEntry", static_cast<float>(layer.transfer->entries.size() + 1));
-    const bool flat = tile.technique == Technique::Plane;
-    const double lengths = flat ? 1.0 : tile.unitLengthWorld / layer.unitLengthWorld;
-    set("density", static_cast<float>(layer.weight * lengths));
-    if (flat) {
+    set("density", static_cast<float>(placement.density));
+    if (tile.technique == Technique::Plane) {
         constexpr double all = -std::numeric_limits<float>::max();
         // What integers become in the shader is a little off: the threshold itself must still pass.
         const bool exact = resident.texture->internalFormat() == GL_R32F;
@@ -71,12 +58,33 @@ void setLayer(const gpu::Program& program, std::size_t i, const TileSpec& tile, 
         set("valueFromTexel", glm::vec2(resident.valueScale, resident.valueOffset));
         set("threshold", static_cast<float>(std::max(layer.threshold - rounding, all)));
     }
-    if (tile.shading.enabled)
-        set("viewFromGradient",
-            viewFromGradient(viewFromVoxels(tile.camera.viewFromWorld, grid, resident.dims)));
+    if (tile.shading.enabled) set("viewFromGradient", placement.viewFromGradient);
 }
 
 } // namespace
+
+LayerPlacement placementOf(const TileSpec& tile, std::size_t i, const ResidentVolume& volume,
+                           const ResidentVolume& resident) {
+    const auto& layer = tile.layers.volumes[i];
+    const auto& grid = resident.meta->grid;
+    const auto box = boxIndex(grid);
+    const bool flat = tile.technique == Technique::Plane;
+    return {layerFromTexture(volume, tile.periodic, resident),
+            (box.low + 0.5) / glm::dvec3(grid.dims) - kFaceSlack,
+            (box.high + 0.5) / glm::dvec3(grid.dims) + kFaceSlack,
+            layer.weight * (flat ? 1.0 : tile.unitLengthWorld / layer.unitLengthWorld),
+            viewFromGradient(viewFromVoxels(tile.camera.viewFromWorld, grid, resident.dims))};
+}
+
+int layerReachSamples(const ResidentVolume& volume, const ResidentVolume& layer, double stretchVoxels) {
+    const auto rows = glm::transpose(glm::dmat3(layerFromTexture(volume, {}, layer)));
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, glm::length(rows[axis] / glm::dvec3(volume.dims)) * layer.dims[axis]);
+    const int all = std::max({layer.dims.x, layer.dims.y, layer.dims.z});
+    return std::max(kShortReach,
+                    static_cast<int>(std::min(std::ceil(0.5 * stretchVoxels * largest), double(all))));
+}
 
 void validateLayers(const TileSpec& tile) {
     const auto& layers = tile.layers;
@@ -132,7 +140,7 @@ void LayerStage::bindOccupied(const gpu::Program& program, const TileSpec& tile,
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const auto& layer = *layers[i];
         emptySpace
-            .occupied(tile.layers.volumes[i].transfer, layer, reachSamples(volume, layer, stretchVoxels))
+            .occupied(tile.layers.volumes[i].transfer, layer, layerReachSamples(volume, layer, stretchVoxels))
             .bind(unitOf(cellsUnit, i));
         const auto layout = CellLayout::of(layer.dims);
         const auto samples = static_cast<float>(layout.cellSamples);

@@ -8,6 +8,9 @@
 #include "stages/empty_space.h"
 #include "stages/tile_spec.h"
 
+#include <glm/glm.hpp>
+
+#include <cstddef>
 #include <span>
 
 namespace voxsheet {
@@ -15,6 +18,21 @@ namespace voxsheet {
 /// Throws InvalidInput (field `layers` or `layers.weights`) if there are too many, a layer is out of the
 /// ranges stated in VolumeLayer, or the technique cannot blend them.
 void validateLayers(const TileSpec& tile);
+
+/// Where a layer lies in the drawn volume, and how much it counts.
+struct LayerPlacement {
+    glm::dmat4 fromTexture;     ///< texture frame of the drawn volume to that of the layer
+    glm::dvec3 boxLow, boxHigh; ///< of the layer, in its texture frame
+    double density;             ///< extinction per unit of the drawn volume's opacity; its weight included
+    glm::mat3 viewFromGradient; ///< of differences per voxel of its level
+};
+[[nodiscard]] LayerPlacement placementOf(const TileSpec& tile, std::size_t layer,
+                                         const ResidentVolume& volume, const ResidentVolume& resident);
+
+/// Samples of a layer, on any axis, that half a stretch in any direction covers at most.
+/// \param stretchVoxels  length of the stretches that are looked up, in voxels of the drawn level
+[[nodiscard]] int layerReachSamples(const ResidentVolume& volume, const ResidentVolume& layer,
+                                    double stretchVoxels);
 
 class LayerStage {
 public:

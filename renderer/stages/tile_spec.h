@@ -59,9 +59,8 @@ struct TileSpec {
 
 /// True for pictures that rays march through volumes, and that the kernels of simd/ can draw.
 [[nodiscard]] inline bool marchesRays(const TileSpec& tile) {
-    const bool marches = tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
-                         tile.technique == Technique::Isosurface;
-    return marches && tile.layers.volumes.empty();
+    return tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
+           tile.technique == Technique::Isosurface;
 }
 
 } // namespace voxsheet

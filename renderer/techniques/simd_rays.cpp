@@ -1,6 +1,8 @@
+#if VOXSHEET_SIMD
 #include "techniques/simd_rays.h"
 
 #include "stages/gradient_frame.h"
+#include "stages/layer_stage.h"
 #include "techniques/isosurface/surface_texels.h"
 #include "volume/parallel_for.h"
 
@@ -177,6 +179,29 @@ void SimdRays::setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& re
     put(surfaces.colourBoxHigh, (box.high + 0.5) / glm::dvec3(other.dims));
 }
 
+void SimdRays::setLayers(simd::PictureJob& job, SharedStages& stages, const DrawRequest& request) {
+    const auto& [tile, volumes, frame, target, rows] = request;
+    job.ownDensity = static_cast<float>(tile.layers.ownWeight);
+    job.layerCount = static_cast<int>(volumes.layers.size());
+    for (std::size_t i = 0; i < volumes.layers.size(); ++i) {
+        const auto& resident = *volumes.layers[i];
+        const auto& transfer = tile.layers.volumes[i].transfer;
+        const auto placement = placementOf(tile, i, volumes.volume, resident);
+        auto& layer = job.layers[i];
+        layer.volume = sampledVolume(*resident.host);
+        layer.table = sampledTable(tableOf(transfer), *transfer, resident);
+        putPlaced(layer.fromTexture, glm::mat4(placement.fromTexture));
+        put(layer.boxLow, placement.boxLow);
+        put(layer.boxHigh, placement.boxHigh);
+        layer.density = static_cast<float>(placement.density);
+        putMatrix(layer.viewFromGradient, placement.viewFromGradient);
+        if (!stages.skipEmptySpace) continue;
+        const int reach =
+            layerReachSamples(volumes.volume, resident, job.chunkSamples * tile.sampleDistanceVoxels);
+        layer.cells = sampledCells(stages.emptySpace.occupiedOnHost(transfer, resident, reach), resident);
+    }
+}
+
 simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
@@ -201,6 +226,7 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.texelSign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
     const float opacity = largestOpacity(*tile.transfer);
     job.opacityScale = opacity > 0.0F ? 1.0F / opacity : 0.0F;
+    setLayers(job, stages, request);
     if (!stages.skipEmptySpace) return job;
     auto& emptySpace = stages.emptySpace;
     switch (tile.technique) {
@@ -240,3 +266,4 @@ void SimdRays::draw(SharedStages& stages, const DrawRequest& request) {
 }
 
 } // namespace voxsheet
+#endif

@@ -23,6 +23,7 @@ private:
     const std::vector<glm::vec4>& tableOf(const std::shared_ptr<const TransferTable>& table);
     [[nodiscard]] simd::PictureJob jobFor(SharedStages& stages, const DrawRequest& request);
     void readSolids(const DrawRequest& request);
+    void setLayers(simd::PictureJob& job, SharedStages& stages, const DrawRequest& request);
     void setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request);
 
     RecentCache<std::shared_ptr<const TransferTable>, std::vector<glm::vec4>> tables_;

@@ -8,10 +8,13 @@
 #include "techniques/overlay/crystal_overlay.h"
 #include "techniques/plane/plane.h"
 #include "techniques/raycast/raycast.h"
-#include "techniques/simd_rays.h"
 #include "techniques/slicing/slicing.h"
 #include "techniques/surface/surface.h"
 #include "techniques/tile_acquisition.h"
+
+#if VOXSHEET_SIMD
+#include "techniques/simd_rays.h"
+#endif
 
 #include <cmath>
 #include <optional>
@@ -79,7 +82,13 @@ public:
     SlicingTechnique slicing;
     SurfaceTechnique surface;
     CrystalOverlay crystal;
-    SimdRays simdRays;
+
+    void draw(const DrawRequest& request) {
+#if VOXSHEET_SIMD
+        if (request.volumes.volume.host) return simdRays.draw(stages, request);
+#endif
+        drawByShaders(request);
+    }
 
     void drawByShaders(const DrawRequest& request) {
         switch (request.tile.technique) {
@@ -97,6 +106,10 @@ public:
             return drawPlane(stages, request);
         }
     }
+
+#if VOXSHEET_SIMD
+    SimdRays simdRays;
+#endif
 
     [[nodiscard]] DerivedTextureBuilder gradientBuilder() {
         return [this](const ResidentVolume& volume, gpu::Texture& texture, int zBegin, int zCount) {
@@ -147,10 +160,7 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
     const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
     const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
     volumes.solids = implementation_->crystal.draw(stages, request);
-    if (volumes.volume.host)
-        implementation_->simdRays.draw(stages, request);
-    else
-        implementation_->drawByShaders(request);
+    implementation_->draw(request);
     if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
     stages.context.checkErrors("drawing a tile");
 }

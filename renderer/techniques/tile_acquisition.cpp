@@ -90,7 +90,7 @@ bool wantsGradientTexture(const TileSpec& tile, const gpu::Workarounds& workarou
     if (!usesGradients || !tile.shading.enabled || tile.shading.gradient != GradientSource::Texture)
         return false;
     // SimdRays takes them from the samples: as fast, and without the texture.
-    return !(workarounds.simdRays && marches && tile.layers.volumes.empty());
+    return !(workarounds.simdRays && marches);
 }
 
 TileLevels askedLevels(const TileSpec& tile) {

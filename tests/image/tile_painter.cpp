@@ -1,6 +1,7 @@
 #include "image/tile_painter.h"
 
 #include <chrono>
+#include <utility>
 
 namespace voxsheet::image {
 namespace {
@@ -9,9 +10,10 @@ constexpr std::uint64_t kBudgetBytes = std::uint64_t{1} << 30;
 
 } // namespace
 
-TilePainter::TilePainter()
-    : volumes_(std::make_shared<MemoryVolumeProvider>()),
-      withShapes_(std::make_shared<const ClipShapeProvider>(volumes_)),
+TilePainter::TilePainter() : TilePainter(std::make_shared<MemoryVolumeProvider>()) {}
+
+TilePainter::TilePainter(std::shared_ptr<MemoryVolumeProvider> volumes)
+    : volumes_(std::move(volumes)), withShapes_(std::make_shared<const ClipShapeProvider>(volumes_)),
       residency_(context_, withShapes_, kBudgetBytes), techniques_(context_) {}
 
 // Another context may be current by now; GL objects are destroyed in their own.

@@ -18,10 +18,13 @@ class TilePainter {
 public:
     /// Throws GpuError without a usable EGL.
     TilePainter();
+    /// Draws the volumes of another painter.
+    explicit TilePainter(std::shared_ptr<MemoryVolumeProvider> volumes);
     ~TilePainter();
     TilePainter(const TilePainter&) = delete;
     TilePainter& operator=(const TilePainter&) = delete;
 
+    [[nodiscard]] const std::shared_ptr<MemoryVolumeProvider>& sharedVolumes() const { return volumes_; }
     /// To add volumes to.
     [[nodiscard]] MemoryVolumeProvider& volumes() { return *volumes_; }
     /// All that tiles can name: the volumes added and the clip shapes.

@@ -1,0 +1,97 @@
+// The kernels of simd/ draw what the shaders draw, with whatever instruction set.
+#include "image/random_tiles.h"
+#include "simd/kernels.h"
+
+#include <hwy/targets.h>
+
+#include <cstdlib>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace voxsheet::image {
+namespace {
+
+constexpr int kTilesOfEach = 8;
+constexpr double kStep8Bit = 1.0 / 255.0;
+
+/// Pixels whose rays touch the edge of a face, a voxel or a cut, or graze a surface: 32-bit floats that are
+/// rounded in another order decide them differently.
+constexpr double kUndecidedPart = 0.004;
+
+/// Set while it lives.
+class Environment {
+public:
+    Environment(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, value, 1);
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+    ~Environment() {
+        if (before_)
+            setenv(name_, before_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+
+private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+class SimdRays : public RandomTiles {
+protected:
+    void SetUp() override {
+        if (!painter.context().workarounds().simdRays)
+            GTEST_SKIP() << "rays are marched by shaders on this device";
+    }
+
+    void expectSame(const TileSpec& tile, const fields::Picture& one, const fields::Picture& other) {
+        const auto apart = pixelsApart(one, other, kStep8Bit);
+        EXPECT_LE(static_cast<double>(apart), 2.0 + kUndecidedPart * static_cast<double>(one.pixels.size()))
+            << apart << " of " << one.pixels.size() << " pixels are apart, technique "
+            << fields::nameOf(tile.technique);
+    }
+};
+
+TEST_P(SimdRays, DrawWhatTheShadersDraw) {
+    const Environment environment("VOXSHEET_DISABLE_WORKAROUNDS", "simd-rays");
+    TilePainter byShaders(painter.sharedVolumes());
+    ASSERT_FALSE(byShaders.context().workarounds().simdRays);
+    for (int trial = 0; trial < kTilesOfEach; ++trial) {
+        const auto grid = randomGrid();
+        const auto tile = randomTile(grid, trial);
+        SCOPED_TRACE(std::to_string(trial) + " " + describe(tile, grid));
+        expectSame(tile, painter.draw(tile), byShaders.draw(tile));
+    }
+}
+
+TEST_P(SimdRays, DrawTheSameWithEveryInstructionSet) {
+    const auto best = std::string(simd::instructionSet());
+    std::set<std::string> used;
+    for (int trial = 0; trial < kTilesOfEach; ++trial) {
+        const auto grid = randomGrid();
+        const auto tile = randomTile(grid, trial);
+        SCOPED_TRACE(std::to_string(trial) + " " + describe(tile, grid));
+        const auto picture = painter.draw(tile);
+        for (auto targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+            hwy::SetSupportedTargetsForTest(targets & -targets);
+            SCOPED_TRACE(simd::instructionSet());
+            used.insert(simd::instructionSet());
+            expectSame(tile, picture, painter.draw(tile));
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
+    EXPECT_EQ(used.count(best), 1U);
+    EXPECT_GE(used.size(), 2U) << "only " << best << " was tested";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SimdRays,
+                         testing::Values(Technique::Raycast, Technique::Mip, Technique::Isosurface),
+                         [](const testing::TestParamInfo<Technique>& tile) {
+                             return fields::nameOf(tile.param);
+                         });
+
+} // namespace
+} // namespace voxsheet::image
