@@ -57,8 +57,10 @@ struct TileSpec {
     bool categories = false;
 };
 
-/// True for pictures that rays march through volumes, and that the kernels of simd/ can draw.
+/// True for pictures that rays march through volumes, and that the kernels of simd/ can draw. Atoms that a
+/// clip object cuts away are sought by shaders, which read it as a texture.
 [[nodiscard]] inline bool marchesRays(const TileSpec& tile) {
+    if (!tile.crystal.empty() && tile.clip.object) return false;
     return tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
            tile.technique == Technique::Isosurface;
 }

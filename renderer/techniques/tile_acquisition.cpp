@@ -85,12 +85,12 @@ VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& a
 
 bool wantsGradientTexture(const TileSpec& tile, const gpu::Workarounds& workarounds) {
     // Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
-    const bool marches = tile.technique == Technique::Raycast || tile.technique == Technique::Isosurface;
-    const bool usesGradients = marches || tile.technique == Technique::Slices;
+    const bool usesGradients = tile.technique == Technique::Raycast ||
+                               tile.technique == Technique::Isosurface || tile.technique == Technique::Slices;
     if (!usesGradients || !tile.shading.enabled || tile.shading.gradient != GradientSource::Texture)
         return false;
     // SimdRays takes them from the samples: as fast, and without the texture.
-    return !(workarounds.simdRays && marches);
+    return !(workarounds.simdRays && marchesRays(tile));
 }
 
 TileLevels askedLevels(const TileSpec& tile) {

@@ -1,6 +1,8 @@
 #include "stream/tile_service.h"
 
 #include <chrono>
+#include <string>
+#include <vector>
 
 namespace voxsheet::stream {
 
@@ -23,6 +25,13 @@ const TileSpec& drawable(const engine::PreparedTile& tile) {
     if (tile.code.empty())
         throw NotFound("cell " + name, "it is empty", "name a cell that holds a dataset or a formula");
     throw InvalidInput("cell " + name, tile.code + " " + tile.message);
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string all;
+    for (const std::string& sentence : sentences)
+        all += (all.empty() || sentence.empty() ? "" : "; ") + sentence;
+    return all;
 }
 
 } // namespace
@@ -93,6 +102,7 @@ std::shared_ptr<const EncodedImage> TileService::cellImage(const CellImageReques
     image->size = pixels.size;
     image->level = pixels.level;
     image->renderMs = pixels.renderMs;
+    image->note = joined({tile.note, pixels.note});
     image->final = request.quality.level == 0 && request.quality.sampleDistanceFactor == 1.0;
     remember(image);
     return image;
@@ -110,6 +120,7 @@ std::shared_ptr<const EncodedImage> TileService::sheetImage(const engine::SheetI
     image->size = drawn.pixels.size;
     image->level = drawn.pixels.level;
     image->renderMs = drawn.pixels.renderMs;
+    image->note = joined(drawn.notes);
     image->final = drawn.final;
     return image;
 }

@@ -25,7 +25,7 @@ struct EncodedImage {
     double encodeMs = 0.0;
     bool final = true;    ///< false: drawn from data that is still arriving; not to be stored by anyone
     bool awaited = false; ///< something better is being brought in: to be asked for again
-    std::string note;     ///< why it is coarser than asked for, when it stays so
+    std::string note;     ///< what to know about it: why it is coarser than asked for, or shows nothing
 };
 
 struct CellImageRequest {

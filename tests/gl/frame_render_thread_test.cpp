@@ -237,8 +237,8 @@ TEST_F(RenderThreadTest, SwapsAWorkingSetLargerThanTheBudget) {
     };
     RenderThread roomy(provider_, {});
     RenderOptions tightOptions;
-    tightOptions.textureBudgetBytes =
-        std::uint64_t{kDim} * kDim * kDim * 4; // the float volume, or two of R16
+    // The float volume, or two of 16 bits, with the border that they have in host memory.
+    tightOptions.textureBudgetBytes = std::uint64_t{kDim + 2} * (kDim + 2) * (kDim + 2) * 4 + 1024;
     RenderThread tight(provider_, tightOptions);
     const FrameResult expected = draw(roomy, spec());
     for (int round = 0; round < 2; ++round) {

@@ -45,6 +45,7 @@ protected:
     }
     static TileSpec tile(int i, bool lit = false) {
         TileSpec made = frontTile(nameOf(i), kDim, 255.0, kPixels);
+        made.technique = Technique::Slices; // from textures on every device
         made.shading.enabled = lit;
         made.shading.gradient = GradientSource::Texture;
         return made;

@@ -76,7 +76,8 @@ TEST_F(Resolver, DrawingLeavesNoGlObjectsBehind) {
         residency.forget("a");
     }
     EXPECT_GT(context().counts().textures, 2);
-    EXPECT_EQ(residency.state().textures, 1);
+    // Rays that SIMD kernels march read volumes in host memory, polygons textures.
+    EXPECT_EQ(residency.state().textures, context().workarounds().simdRays ? 2 : 1);
     // TearDown finds every count at 0 once these are gone.
 }
 

@@ -37,6 +37,16 @@ TEST_F(ApiScans, RangesOfValuesOverDataTimeAndWhatThePictureShows) {
     EXPECT_EQ(program_->get(kSheet + "/cells/B2/range").status, 404);
 }
 
+TEST_F(ApiScans, APictureWithoutItsSurfaceSaysWhy) {
+    const auto image = kSheet + "/cells/A1/image.png?width=32&height=32&technique=isosurface&isovalue=";
+    EXPECT_EQ(program_->get(image + "100").field("X-Voxsheet-Note"), "");
+    const auto note = program_->get(image + "9999").field("X-Voxsheet-Note");
+    EXPECT_NE(note.find("no surface is drawn"), std::string::npos) << note;
+    const auto sheet =
+        program_->get(kSheet + "/image.png?width=64&height=64&technique=isosurface&isovalue=9999");
+    EXPECT_NE(sheet.field("X-Voxsheet-Note").find("cell A1: no surface is drawn"), std::string::npos);
+}
+
 TEST_F(ApiScans, PlanesStandBesideEveryNamedCellAsOneUndoStep) {
     const auto before = getJson("/api/v1/workbook");
     EXPECT_EQ(program_->ask("POST", kSheet + "/planes", R"({"cells": []})").json().at("field"), "cells");

@@ -87,8 +87,9 @@ TEST_F(Shading, TextureAndSixTapsGiveOnePicture) {
     const auto texture = painter.draw(tile);
     // The gradient texture's 16-bit floats, and the outermost voxel, where the two are defined differently.
     EXPECT_GT(fields::difference(taps, texture).psnr, 45.0);
-    EXPECT_EQ(painter.residency().state().residentBytes - resident, 8U * 40 * 40 * 40)
-        << "its bytes are counted";
+    // SIMD kernels take the same gradients from the samples.
+    const auto gradientBytes = painter.context().workarounds().simdRays ? 0U : 8U * 40 * 40 * 40;
+    EXPECT_EQ(painter.residency().state().residentBytes - resident, gradientBytes) << "its bytes are counted";
 }
 
 TEST_F(Shading, ALinearFieldHasOneNormalEverywhere) {

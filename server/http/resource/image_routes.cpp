@@ -66,11 +66,25 @@ std::string milliseconds(double value) {
     return out.str();
 }
 
+/// Of any text: what headers cannot carry, and '%', as percent escapes of its UTF-8 bytes.
+std::string headerText(const std::string& text) {
+    std::string out;
+    for (const char each : text) {
+        const auto byte = static_cast<unsigned char>(each);
+        if (byte >= 0x20 && byte < 0x7F && each != '%')
+            out += each;
+        else
+            out += percentEncoded(std::string(1, each));
+    }
+    return out;
+}
+
 Response imageAnswer(const stream::EncodedImage& image) {
     Response response{200, stream::mediaType(image.format), image.bytes};
     response.headers.add("X-Voxsheet-Level", std::to_string(image.level));
     response.headers.add("X-Voxsheet-Render-Ms", milliseconds(image.renderMs));
     response.headers.add("X-Voxsheet-Final", image.final ? "true" : "false");
+    if (!image.note.empty()) response.headers.add("X-Voxsheet-Note", headerText(image.note));
     if (!image.final) {
         response.headers.add("Cache-Control", "no-store");
         return response;
@@ -129,7 +143,10 @@ void addImageRoutes(Router& router, const ApiContext& context) {
          .anyStyleKey = true,
          .pool = Pool::Render,
          .answerType = "image/png",
-         .answerDoc = "the picture; headers ETag, X-Voxsheet-Level, X-Voxsheet-Render-Ms, X-Voxsheet-Final"});
+         .answerDoc =
+             "the picture; headers ETag, X-Voxsheet-Level, X-Voxsheet-Render-Ms, X-Voxsheet-Final, "
+             "X-Voxsheet-Note (percent-encoded where it is not ASCII: why the picture is coarser than "
+             "asked for, or empty)"});
     auto docs = kSizeDocs;
     docs.push_back({"range", "string", "cells, e.g. A1:C3; default: all used ones"});
     docs.push_back({"title", "string", "drawn above the sheet"});
@@ -142,7 +159,7 @@ void addImageRoutes(Router& router, const ApiContext& context) {
                 .anyStyleKey = true,
                 .pool = Pool::Render,
                 .answerType = "image/png",
-                .answerDoc = "the picture"});
+                .answerDoc = "the picture; headers as of one cell"});
 }
 
 } // namespace voxsheet::http
