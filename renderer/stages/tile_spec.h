@@ -14,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -57,10 +58,14 @@ struct TileSpec {
     bool categories = false;
 };
 
-/// True for pictures that rays march through volumes, and that the kernels of simd/ can draw. Atoms that a
-/// clip object cuts away are sought by shaders, which read it as a texture.
+/// True for pictures that rays march through volumes, and that the kernels of simd/ can draw. Not of
+/// categories, whose samples shaders take; and atoms that a clip object cuts away are sought by shaders,
+/// which read it as a texture.
 [[nodiscard]] inline bool marchesRays(const TileSpec& tile) {
-    if (!tile.crystal.empty() && tile.clip.object) return false;
+    const auto& layers = tile.layers.volumes;
+    const bool ofCategories =
+        std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.categories; });
+    if (tile.categories || ofCategories || (!tile.crystal.empty() && tile.clip.object)) return false;
     return tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
            tile.technique == Technique::Isosurface;
 }
