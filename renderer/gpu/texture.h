@@ -35,8 +35,8 @@ public:
     /// product(extent) * texelBytes().
     void upload(glm::ivec3 offset, glm::ivec3 extent, GLenum format, GLenum type,
                 std::span<const std::byte> texels) const;
-    /// Copies rows [firstRow, endRow) of a 2D texture here, tightly packed as for upload; waits for what draws
-    /// it.
+    /// Copies rows [firstRow, endRow) of a 2D texture here, tightly packed as for upload; waits for what
+    /// draws it.
     void download(int firstRow, int endRow, GLenum format, GLenum type, std::span<std::byte> texels) const;
     /// Sets all texels of a float or normalised colour texture; safe before a compute dispatch writes it.
     void clear(const glm::vec4& value);

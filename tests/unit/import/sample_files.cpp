@@ -5,6 +5,8 @@
 #include "packed_bytes.h"
 #include "tiff_bytes.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -178,7 +180,8 @@ std::vector<SampleFile> furtherSamples() {
 
 std::vector<SampleFile> tiffSamples(const std::filesystem::path& scratch) {
     std::vector<SampleFile> samples;
-    const auto path = scratch / "scratch.tif";
+    // Every process that lists these tests writes it.
+    const auto path = scratch / ("voxsheet_sample_" + std::to_string(getpid()) + ".tif");
     for (const auto& [name, compression] :
          {std::pair{"plain.tif", COMPRESSION_NONE}, std::pair{"deflate.tif", COMPRESSION_ADOBE_DEFLATE}}) {
         TiffPageOptions page;
