@@ -43,8 +43,9 @@ TEST_F(ApiScans, APictureWithoutItsSurfaceSaysWhy) {
     const auto note = program_->get(image + "9999").field("X-Voxsheet-Note");
     EXPECT_NE(note.find("no surface is drawn"), std::string::npos) << note;
     const auto sheet =
-        program_->get(kSheet + "/image.png?width=64&height=64&technique=isosurface&isovalue=9999");
-    EXPECT_NE(sheet.field("X-Voxsheet-Note").find("cell A1: no surface is drawn"), std::string::npos);
+        program_->get(kSheet + "/image.png?width=400&height=400&technique=isosurface&isovalue=9999");
+    EXPECT_NE(sheet.field("X-Voxsheet-Note").find("cell A1: no surface is drawn"), std::string::npos)
+        << sheet.status << " " << sheet.field("X-Voxsheet-Note") << sheet.body.substr(0, 300);
 }
 
 TEST_F(ApiScans, PlanesStandBesideEveryNamedCellAsOneUndoStep) {

@@ -19,6 +19,7 @@ nlohmann::json deviceJson(const engine::Engine& engine, const std::vector<std::s
             {"software", device->software},
             {"robust", device->robust},
             {"max_texture_size_3d", device->maxTextureSize3d},
+            {"workarounds", device->workarounds}, // of the driver, in force
             {"devices", devices}};
 }
 
