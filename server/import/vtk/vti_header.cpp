@@ -57,7 +57,9 @@ public:
             if (stopped_ || (status == XML_STATUS_OK && last)) break;
             if (status != XML_STATUS_OK) damaged(xmlError());
         }
-        if (!haveImage_) damaged("it has no element ImageData");
+        if (!haveImage_) damaged("it has no element ImageData or RectilinearGrid");
+        if (header_.rectilinear && header_.coordinates.size() != 3)
+            damaged("it has not three arrays of coordinates");
         findAppendedData();
         return std::move(header_);
     }
@@ -106,11 +108,13 @@ private:
 
     void start(const std::string& element, const Attributes& attributes) {
         if (element == "VTKFile") return startFile(attributes);
-        if (element == "ImageData") return startImage(attributes);
+        if (element == "ImageData" || element == "RectilinearGrid") return startImage(element, attributes);
         if (element == "Piece") return startPiece(attributes);
         if (element == "PointData" || element == "CellData") {
             section_ = element == "CellData" ? Section::Cells : Section::Points;
             vectors_ = {value(attributes, "Vectors"), value(attributes, "Normals")};
+        } else if (element == "Coordinates") {
+            section_ = Section::Coordinates;
         } else if (element == "DataArray" && section_ != Section::None) {
             startArray(attributes);
         } else if (element == "AppendedData") {
@@ -122,33 +126,42 @@ private:
     }
 
     void end(const std::string& element) {
-        if (element == "PointData" || element == "CellData") section_ = Section::None;
+        if (element == "PointData" || element == "CellData" || element == "Coordinates")
+            section_ = Section::None;
         if (element == "DataArray" && array_) {
             finishWord();
-            header_.arrays.push_back(std::move(*array_));
+            (section_ == Section::Coordinates ? header_.coordinates : header_.arrays)
+                .push_back(std::move(*array_));
             array_.reset();
         }
     }
 
     void startFile(const Attributes& attributes) {
         const auto type = value(attributes, "type");
-        if (type != "ImageData")
-            throw Unsupported(file_.name(), "it holds a VTK data set of the kind '" + printable(type) + "'",
-                              "only image data (.vti) can be read from VTK's XML files");
+        header_.rectilinear = type == "RectilinearGrid";
+        if (type != "ImageData" && !header_.rectilinear)
+            throw Unsupported(
+                file_.name(), "it holds a VTK data set of the kind '" + printable(type) + "'",
+                "only image data (.vti), rectilinear grids (.vtr) and AMR data sets of images can be "
+                "read from VTK's XML files");
         header_.bigEndian = value(attributes, "byte_order") == "BigEndian";
         header_.headerIntegerBytes = value(attributes, "header_type") == "UInt64" ? 8 : 4;
         header_.compressed = !value(attributes, "compressor").empty();
         haveFile_ = true;
     }
 
-    void startImage(const Attributes& attributes) {
+    void startImage(const std::string& element, const Attributes& attributes) {
         if (!haveFile_) damaged("its outermost element is not VTKFile");
+        if ((element == "RectilinearGrid") != header_.rectilinear)
+            damaged("its elements do not fit its type");
         extent_ = integers(attributes, "WholeExtent");
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto size = extent_[2 * axis + 1] - extent_[2 * axis] + 1;
             if (size < 1 || size > (1 << 24)) damaged("its WholeExtent is empty or too large");
             header_.points.dims[static_cast<int>(axis)] = static_cast<int>(size);
         }
+        haveImage_ = true;
+        if (header_.rectilinear) return validateGrid(header_.points); // its dims
         const auto spacing = numbers(attributes, "Spacing", {1, 1, 1});
         const auto origin = numbers(attributes, "Origin", {0, 0, 0});
         const auto direction = numbers(attributes, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
@@ -162,7 +175,6 @@ private:
         }
         header_.points.worldFromIndex = affine(columns, first);
         validateGrid(header_.points);
-        haveImage_ = true;
     }
 
     void startPiece(const Attributes& attributes) {
@@ -175,11 +187,14 @@ private:
 
     void startArray(const Attributes& attributes) {
         if (!havePiece_) damaged("a DataArray stands outside of a Piece");
+        const bool isCoordinate = section_ == Section::Coordinates;
         VtiArray array;
-        array.name = value(attributes, "Name");
+        array.name = isCoordinate ? std::string("coordinates") : value(attributes, "Name");
         const auto typeName = value(attributes, "type");
         const auto type = std::find_if(kTypes.begin(), kTypes.end(),
                                        [&](const auto& entry) { return entry.first == typeName; });
+        if (isCoordinate && (type == kTypes.end() || value(attributes, "NumberOfComponents", "1") != "1"))
+            damaged("its coordinates are no numbers");
         if (type == kTypes.end()) {
             header_.notes.push_back("The array '" + printable(array.name) + "' was left out: its type is " +
                                     printable(typeName) + ".");
@@ -244,9 +259,9 @@ private:
     }
 
     void findAppendedData() {
-        const bool needed = std::any_of(header_.arrays.begin(), header_.arrays.end(), [](const VtiArray& a) {
-            return a.encoding == VtiEncoding::Appended;
-        });
+        const auto isAppended = [](const VtiArray& a) { return a.encoding == VtiEncoding::Appended; };
+        const bool needed = std::any_of(header_.arrays.begin(), header_.arrays.end(), isAppended) ||
+                            std::any_of(header_.coordinates.begin(), header_.coordinates.end(), isAppended);
         if (!stopped_) {
             if (needed) damaged("the appended data that it speaks of are missing");
             return;
@@ -284,7 +299,7 @@ private:
         return *list;
     }
 
-    enum class Section { None, Points, Cells };
+    enum class Section { None, Points, Cells, Coordinates };
 
     const InputFile& file_;
     std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;

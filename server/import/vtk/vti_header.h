@@ -1,5 +1,5 @@
-// What a VTK XML image file says about itself, and whether its data are all there. VTK's own reader loads
-// truncated files without an error, so this stands before it.
+// What a VTK XML image or rectilinear grid file says about itself, and whether its data are all there. VTK's
+// own reader loads truncated files without an error, so this stands before it.
 #pragma once
 
 #include "import/formats/input_file.h"
@@ -27,7 +27,9 @@ struct VtiArray {
 };
 
 struct VtiHeader {
-    Grid points;
+    Grid points; ///< of a rectilinear grid: dims alone
+    bool rectilinear = false;
+    std::vector<VtiArray> coordinates; ///< of a rectilinear grid: along x, y, z, in their order
     bool bigEndian = false;
     std::size_t headerIntegerBytes = 4; ///< of the lengths before binary data
     bool compressed = false;
@@ -38,7 +40,8 @@ struct VtiHeader {
 };
 
 /// Parses the XML around the data; inline data are counted, not kept. Throws InvalidInput (damaged, a
-/// document type, no VTK file), Unsupported (not an image; several pieces).
+/// document type, no VTK file), Unsupported (neither image nor rectilinear grid; several
+/// pieces).
 [[nodiscard]] VtiHeader parseVtiHeader(const InputFile& file);
 
 /// Compares the lengths that stand before an array's data with `expectedBytes` and with what the file holds.

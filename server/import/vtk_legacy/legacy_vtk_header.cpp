@@ -67,6 +67,8 @@ public:
             parseKeyword(lowerCase(words[0]), words);
         }
         if (!haveDims_) damaged("it has no line DIMENSIONS");
+        if (rectilinear_ && header_.coordinates.size() != 3)
+            damaged("it has not three arrays of coordinates");
         return std::move(header_);
     }
 
@@ -94,15 +96,31 @@ private:
         if (keyword == "point_data") return startAttributes(words, LegacyAttribute::Point);
         if (keyword == "cell_data") return startAttributes(words, LegacyAttribute::Cell);
         if (keyword == "metadata") return skipMetadata();
+        if (keyword == "x_coordinates") return parseCoordinates(words, 0);
+        if (keyword == "y_coordinates") return parseCoordinates(words, 1);
+        if (keyword == "z_coordinates") return parseCoordinates(words, 2);
         if (keyword == "field") return parseFieldArrays(words);
         parseAttribute(keyword, words);
     }
 
     void parseDataset(const std::vector<std::string_view>& words) {
         const auto kind = words.size() > 1 ? lowerCase(words[1]) : std::string();
-        if (kind == "structured_points") return;
-        throw Unsupported(file_.name(), "it holds a VTK data set of the kind '" + printable(kind) + "'",
-                          "only structured points (images) can be read from .vtk files");
+        rectilinear_ = kind == "rectilinear_grid";
+        if (rectilinear_ || kind == "structured_points") return;
+        throw Unsupported(
+            file_.name(), "it holds a VTK data set of the kind '" + printable(kind) + "'",
+            "only structured points (images) and rectilinear grids can be read from .vtk files");
+    }
+
+    void parseCoordinates(const std::vector<std::string_view>& words, std::size_t axis) {
+        const auto count = words.size() > 1 ? parseInteger(words[1]) : std::nullopt;
+        if (!rectilinear_ || !haveDims_ || header_.coordinates.size() != axis || words.size() < 3 || !count ||
+            *count != header_.dims[static_cast<int>(axis)])
+            damaged("the line " + printable(words[0]) + " does not fit its dimensions");
+        const auto type = numberType(words[0], words[2]);
+        header_.coordinates.push_back(
+            {std::string(words[0]), LegacyAttribute::Point, type, 1, false, cursor_.position()});
+        skipNumbers(type, static_cast<std::uint64_t>(*count), printable(words[0]));
     }
 
     void parseDimensions(const std::vector<std::string_view>& words) {
@@ -234,6 +252,7 @@ private:
     TextCursor cursor_;
     LegacyVtkHeader header_;
     bool haveDims_ = false;
+    bool rectilinear_ = false;
     std::optional<LegacyAttribute> attribute_;
     std::uint64_t tuples_ = 0;
 };

@@ -26,6 +26,8 @@ struct LegacyArray {
 struct LegacyVtkHeader {
     bool binary = false; ///< big-endian numbers instead of text
     glm::ivec3 dims{1};  ///< points
+    /// Of a rectilinear grid: as many numbers along x, y, z as dims says; empty otherwise.
+    std::vector<LegacyArray> coordinates;
     glm::dvec3 spacing{1.0};
     glm::dvec3 origin{0.0};
     std::vector<LegacyArray>
@@ -37,8 +39,8 @@ struct LegacyVtkHeader {
 [[nodiscard]] glm::ivec3 cellDims(const glm::ivec3& pointDims);
 
 /// Walks over the whole file, numbers included, and allocates none of them. Throws InvalidInput if the file
-/// is damaged, lies about its size or is truncated; Unsupported for data sets other than structured points,
-/// and for text in arrays.
+/// is damaged, lies about its size or is truncated; Unsupported for data sets other than structured points
+/// and rectilinear grids, and for text in arrays.
 [[nodiscard]] LegacyVtkHeader parseLegacyVtk(const InputFile& file);
 
 } // namespace voxsheet::import

@@ -3,12 +3,15 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRectilinearGridReader.h>
 #include <vtkSLCReader.h>
+#include <vtkSmartPointer.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
+#include <vtkXMLRectilinearGridReader.h>
 
 #include <bzlib.h>
 #include <zlib.h>
@@ -325,27 +328,44 @@ PlainVolume plainCube(const fs::path& path) {
     return volume;
 }
 
-PlainVolume vtkVolume(const fs::path& path) {
-    vtkNew<vtkXMLImageDataReader> xml;
-    vtkNew<vtkStructuredPointsReader> legacy;
-    vtkNew<vtkSLCReader> slc;
-    vtkImageData* image = nullptr;
-    const auto read = [&](auto& reader) {
+namespace {
+
+vtkSmartPointer<vtkDataSet> vtkDataSetOf(const fs::path& path) {
+    const auto read = [&](auto reader) -> vtkSmartPointer<vtkDataSet> {
         reader->SetFileName(path.c_str());
         reader->Update();
-        image = reader->GetOutput();
+        return reader->GetOutput();
     };
-    if (path.extension() == ".vti")
-        read(xml);
-    else if (path.extension() == ".slc")
-        read(slc);
+    if (path.extension() == ".vti") return read(vtkSmartPointer<vtkXMLImageDataReader>::New());
+    if (path.extension() == ".vtr") return read(vtkSmartPointer<vtkXMLRectilinearGridReader>::New());
+    if (path.extension() == ".slc") return read(vtkSmartPointer<vtkSLCReader>::New());
+    if (rawBytes(path).find("RECTILINEAR_GRID") != std::string::npos)
+        return read(vtkSmartPointer<vtkRectilinearGridReader>::New());
+    return read(vtkSmartPointer<vtkStructuredPointsReader>::New());
+}
+
+double vtkSpacing(vtkDataSet* set, int axis) {
+    if (auto* const image = vtkImageData::SafeDownCast(set)) return image->GetSpacing()[axis];
+    auto* const grid = vtkRectilinearGrid::SafeDownCast(set);
+    const std::array axes{grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates()};
+    auto* const points = axes[static_cast<std::size_t>(axis)];
+    return points->GetNumberOfTuples() < 2 ? 0.0 : points->GetTuple1(1) - points->GetTuple1(0);
+}
+
+} // namespace
+
+PlainVolume vtkVolume(const fs::path& path) {
+    const auto image = vtkDataSetOf(path);
+    std::array<int, 3> points{};
+    if (auto* const grid = vtkRectilinearGrid::SafeDownCast(image))
+        grid->GetDimensions(points.data());
     else
-        read(legacy);
+        vtkImageData::SafeDownCast(image)->GetDimensions(points.data());
     const bool ofCells = image->GetPointData()->GetNumberOfArrays() == 0;
     PlainVolume volume;
     for (int axis = 0; axis < 3; ++axis) {
-        volume.dims[axis] = std::max(1, image->GetDimensions()[axis] - (ofCells ? 1 : 0));
-        volume.spacing[axis] = image->GetSpacing()[axis];
+        volume.dims[axis] = std::max(1, points[static_cast<std::size_t>(axis)] - (ofCells ? 1 : 0));
+        volume.spacing[axis] = vtkSpacing(image, axis);
     }
     vtkDataSetAttributes* const data =
         ofCells ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : image->GetPointData();

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-class vtkImageData;
-
 namespace voxsheet::import::testing {
 
 struct PlainVolume {
@@ -32,7 +30,8 @@ struct PlainVolume {
 [[nodiscard]] PlainVolume plainVasp(const std::filesystem::path& path);
 [[nodiscard]] PlainVolume plainCube(const std::filesystem::path& path);
 
-/// By VTK's own readers: .vti, legacy structured points, .slc. Point data, or cell data where there is none.
+/// By VTK's own readers: .vti, legacy structured points, .slc, and rectilinear grids whose coordinates are
+/// equally spaced. Point data, or cell data where there is none.
 [[nodiscard]] PlainVolume vtkVolume(const std::filesystem::path& path);
 
 } // namespace voxsheet::import::testing
