@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "import/formats/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxsheet::import {
@@ -70,23 +71,59 @@ void skipGrid(const InputFile& file, TextScanner& text, std::uint64_t values, co
                            "copy the file again, or let the calculation finish");
 }
 
-double GridValues::next() {
-    const auto word = text_.word();
-    if (word.empty())
-        throw InvalidInput(
-            name_, "it ends after " + std::to_string(done_) + " of " + std::to_string(count_) + " values",
-            "copy the file again, or let the calculation finish");
-    const auto value = parseFortranNumber(word);
-    if (!value)
-        throw InvalidInput(name_, "it holds '" + printable(word) + "' where value " +
-                                      std::to_string(done_ + 1) + " of a grid should be");
-    const bool sign = word[0] == '-' || word[0] == '+';
-    const auto width = word.size() - (sign ? 1 : 0);
-    if (++done_ == count_ && equallyWide_ && width < width_ && text_.atEnd())
+/// Parses a batch of words; at least one value is ready afterwards.
+void GridValues::fetch() {
+    constexpr std::uint64_t usualLetters = 32; // a little more than a value and its blank take
+    ready_.clear();
+    at_ = 0;
+    const auto wanted = count_ - done_;
+    const auto bytes = std::min<std::uint64_t>(kNumberBatchBytes, wanted * usualLetters);
+    for (;;) {
+        const auto text = text_.peek(static_cast<std::size_t>(bytes));
+        const auto pieces = parsePieces<double>(text, false, parseFortranNumber);
+        std::optional<std::string> badWord;
+        for (const auto& piece : pieces) {
+            add(piece, wanted);
+            if (!piece.badWord) continue;
+            badWord = printable(*piece.badWord);
+            break;
+        }
+        if (ready_.size() == wanted) { // what follows the grid is not its own
+            (void)text_.skipWords(wanted, text.size());
+            return checkLastValue();
+        }
+        const auto value = std::to_string(done_ + ready_.size() + 1);
+        if (badWord)
+            throw InvalidInput(name_,
+                               "it holds '" + *badWord + "' where value " + value + " of a grid should be");
+        if (text.empty())
+            throw InvalidInput(
+                name_, "it ends after " + std::to_string(done_) + " of " + std::to_string(count_) + " values",
+                "copy the file again, or let the calculation finish");
+        text_.skipBytes(text.size());
+        if (!ready_.empty()) return;
+    }
+}
+
+void GridValues::add(const NumberPiece<double>& piece, std::uint64_t wanted) {
+    const auto room = wanted - ready_.size();
+    if (piece.values.empty() || room == 0) return;
+    const auto taken = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(room, piece.values.size()));
+    ready_.insert(ready_.end(), piece.values.begin(), piece.values.begin() + taken);
+    // Words beyond the grid count as well: the file does not end then, and nobody asks for widths.
+    const auto join = [this](std::size_t width) {
+        if (earlierWidth_ != 0 && width != 0 && width != earlierWidth_) equallyWide_ = false;
+        if (width != 0) earlierWidth_ = width;
+    };
+    join(width_);
+    join(piece.earlierWidth);
+    equallyWide_ = equallyWide_ && piece.equallyWide;
+    width_ = piece.width;
+}
+
+void GridValues::checkLastValue() {
+    if (equallyWide_ && width_ < earlierWidth_ && text_.atEnd())
         throw InvalidInput(name_, "it ends within the last value of a grid", "copy the file again");
-    if (width_ != 0 && width != width_) equallyWide_ = false;
-    width_ = width;
-    return *value;
 }
 
 } // namespace voxsheet::import

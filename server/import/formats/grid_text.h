@@ -2,6 +2,7 @@
 #pragma once
 
 #include "import/formats/input_file.h"
+#include "import/formats/number_batch.h"
 #include "import/formats/text_scanner.h"
 
 #include <glm/glm.hpp>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace voxsheet::import {
 
@@ -35,17 +37,28 @@ public:
 
     /// To be called at most `count` times. Throws InvalidInput at the end of the file, at a word that is no
     /// number, and when the file ends within the last value (which shows where all values are equally wide).
-    [[nodiscard]] double next();
+    [[nodiscard]] double next() {
+        if (at_ == ready_.size()) fetch();
+        ++done_;
+        return ready_[at_++];
+    }
     /// Part of the values that were read, 0..1.
     [[nodiscard]] double fraction() const { return static_cast<double>(done_) / static_cast<double>(count_); }
 
 private:
+    void fetch();
+    void add(const NumberPiece<double>& piece, std::uint64_t wanted);
+    void checkLastValue();
+
     TextScanner& text_;
     std::string name_;
     std::uint64_t count_;
     std::uint64_t done_ = 0;
-    std::size_t width_ = 0; ///< of the last word, without its sign
-    bool equallyWide_ = true;
+    std::vector<double> ready_; ///< parsed, from at_ on not yet taken
+    std::size_t at_ = 0;
+    std::size_t width_ = 0;        ///< of the last word parsed, without its sign
+    std::size_t earlierWidth_ = 0; ///< of the words before it; 0: there are none
+    bool equallyWide_ = true;      ///< the words before the last have one width
 };
 
 } // namespace voxsheet::import

@@ -1,6 +1,7 @@
 #include "import/formats/text_scanner.h"
 
 #include "base/errors.h"
+#include "import/formats/number_batch.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kBlockBytes = 256 * 1024;
 constexpr std::size_t kLongestBytes = 64 * 1024;
 
-constexpr bool isBlank(char letter) { return letter == ' ' || (letter >= '\t' && letter <= '\r'); }
+constexpr bool isBlank(char letter) { return isTextBlank(letter); }
 
 } // namespace
 
@@ -70,6 +71,16 @@ std::uint64_t TextScanner::skipWords(std::uint64_t count, std::uint64_t mostByte
     std::uint64_t found = 0;
     bool inWord = false;
     for (;;) {
+        // Where even a block of one-letter words would not do, their ends are counted without a branch.
+        if (const auto length = end_ - begin_; length > 0 && count - found > length / 2 + 1) {
+            bool before = inWord;
+            for (; begin_ < end_; ++begin_) {
+                const bool letter = !isBlank(block_[begin_]);
+                found += static_cast<std::uint64_t>(before && !letter);
+                before = letter;
+            }
+            inWord = before;
+        }
         for (; begin_ < end_; ++begin_) {
             const bool blank = isBlank(block_[begin_]);
             if (inWord && blank) {
@@ -82,6 +93,25 @@ std::uint64_t TextScanner::skipWords(std::uint64_t count, std::uint64_t mostByte
         if (position() - start > mostBytes) throw InvalidInput(name_, "it holds far more blanks than values");
         if (!fetch()) return found + (inWord ? 1 : 0);
     }
+}
+
+std::string_view TextScanner::peek(std::size_t bytes) {
+    // Room for the word that goes on beyond them.
+    if (block_.size() < bytes + kLongestBytes) block_.resize(bytes + kLongestBytes);
+    bool more = true;
+    while (more && end_ - begin_ < bytes)
+        more = fetch();
+    auto length = std::min(bytes, end_ - begin_);
+    while (more && length > 0 && !isBlank(block_[begin_ + length - 1])) {
+        if (begin_ + length == end_) {
+            if (length >= bytes + kLongestBytes)
+                throw InvalidInput(name_, "it has a word longer than 64 KiB: it is no text file");
+            more = fetch();
+            if (!more) break;
+        }
+        ++length;
+    }
+    return {block_.data() + begin_, length};
 }
 
 void TextScanner::skipBytes(std::uint64_t count) {

@@ -27,6 +27,10 @@ public:
     /// text: a small compressed file can hold blanks without end.
     [[nodiscard]] std::uint64_t skipWords(std::uint64_t count, std::uint64_t mostBytes);
 
+    /// The next bytes, at least `bytes` where the file has them and then up to the end of a word; they stay
+    /// unread. Valid until the next call. Throws InvalidInput if a word is longer than 64 KiB.
+    [[nodiscard]] std::string_view peek(std::size_t bytes);
+
     /// Offset of the next unread byte in the decompressed text.
     [[nodiscard]] std::uint64_t position() const { return fetched_ - (end_ - begin_); }
     /// Passes over `count` bytes, without reading them where the file is not compressed.

@@ -149,9 +149,15 @@ void readVoxels(const VoxelPlan& plan, const glm::ivec3& dims, const ArraySink& 
     for (int volume = 0; volume < volumes; ++volume) {
         const int outerField = plan.stepsFastest ? volume / plan.steps : volume % plan.outerFields;
         const int step = plan.stepsFastest ? volume % plan.steps : volume / plan.outerFields;
-        std::vector<std::vector<std::byte>> arrays(components, std::vector<std::byte>(voxels * valueBytes));
+        // They grow with what is read: memory is touched right before it is filled, and a file that ends
+        // early costs no more than what it holds.
+        std::vector<std::vector<std::byte>> arrays(components);
+        for (auto& array : arrays)
+            array.reserve(voxels * valueBytes);
         for (std::size_t first = 0; first < voxels; first += slabVoxels) {
             const auto count = std::min(slabVoxels, voxels - first);
+            for (auto& array : arrays)
+                array.resize((first + count) * valueBytes);
             const auto part = components > 1
                                   ? std::span(slab).first(count * valueBytes * components)
                                   : std::span(arrays[0]).subspan(first * valueBytes, count * valueBytes);

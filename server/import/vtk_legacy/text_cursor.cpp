@@ -1,6 +1,7 @@
 #include "import/vtk_legacy/text_cursor.h"
 
 #include "base/errors.h"
+#include "import/formats/number_batch.h"
 #include "import/formats/number_text.h"
 
 namespace voxsheet::import {
@@ -9,8 +10,6 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 256 * 1024;
 constexpr std::size_t kLongestLine = 4096;
-
-bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 } // namespace
 
@@ -51,12 +50,14 @@ bool TextCursor::skipBytes(std::uint64_t count) {
 
 bool TextCursor::skipWords(std::uint64_t count) {
     bool inWord = false;
-    while (fill()) {
-        const bool blank = isBlank(buffer_[position_ - bufferStart_]);
-        if (inWord && blank && --count == 0) return true;
-        if (count == 0) return true;
-        inWord = !blank;
-        ++position_;
+    while (count > 0 && fill()) {
+        auto at = static_cast<std::size_t>(position_ - bufferStart_);
+        for (; at < buffer_.size(); ++at) {
+            const bool blank = isTextBlank(buffer_[at]);
+            if (inWord && blank && --count == 0) break;
+            inWord = !blank;
+        }
+        position_ = bufferStart_ + at;
     }
     return count == 0 || (inWord && count == 1);
 }
