@@ -3,6 +3,7 @@
 #include "bench/volume_bench.h"
 #include "cli/bench/edit_bench.h"
 #include "cli/bench/http_bench.h"
+#include "cli/bench/import_bench.h"
 #include "cli/bench/stream_bench.h"
 #include "cli/bench/time_n_command.h"
 #include "cli/commands.h"
@@ -87,6 +88,27 @@ Action addEdit(CLI::App& app) {
     return withOutput(app, [options] { return runEditBench(*options); });
 }
 
+Action addImport(CLI::App& app) {
+    auto options = std::make_shared<ImportBenchOptions>();
+    app.add_option("--dim", options->dim, "Samples per edge of each file (192)")->check(CLI::Range(8, 512));
+    app.add_option("--repeats", options->repeats, "Readings of each file, of which the fastest counts (3)")
+        ->check(CLI::Range(1, 100));
+    app.add_option("--only", options->only, "Only formats whose name has this text in it");
+    app.add_option("--files", options->files,
+                   "Numbers of files for the time to the first picture (1,40); 0: none")
+        ->delimiter(',')
+        ->check(CLI::Range(0, 256));
+    app.add_option("--file-dim", options->fileDim, "Samples per edge of those files (256)")
+        ->check(CLI::Range(8, 512));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    app.footer("Example: voxsheet bench import --only chgcar --json");
+    return withOutput(app, [options] {
+        return runImportBench(*options, [](const std::string& name) {
+            std::fprintf(stderr, "bench import: %s\n", name.c_str());
+        });
+    });
+}
+
 Action addVolume(CLI::App& app) {
     auto options = std::make_shared<bench::VolumeBenchOptions>();
     auto type = std::make_shared<std::string>("u8");
@@ -131,6 +153,8 @@ Action addBench(CLI::App& app) {
     };
     add("volume", "Time and quality of every volume rendering technique on one volume", &addVolume);
     add("stream", "Input-to-pixels latency, frames per second and bytes per frame over loopback", &addStream);
+    add("import", "Reading of every format against plain reading or decompression; time to the first picture",
+        &addImport);
     add("edit", "Time from an edit to the final pictures: one dirty cell against a whole dirty sheet",
         &addEdit);
     add("http", "Requests per second and their latency over loopback", &addHttp);

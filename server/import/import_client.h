@@ -54,6 +54,17 @@ using ImportCancelled = std::function<bool()>;
 ImportResult runImport(const ImporterSettings& settings, const ImportRequest& request,
                        const ImportProgress& progress = {}, const ImportCancelled& cancelled = {});
 
+/// How long a file takes to read, for benches: nothing goes into the store.
+struct ReadingTime {
+    double headerSeconds = 0.0; ///< until the header is understood and checked
+    double dataSeconds = 0.0;   ///< from there until the last voxel is in memory
+    std::uint64_t voxelBytes = 0;
+};
+
+/// Times one reading within an importer process; the process's start does not count. Throws as runImport.
+[[nodiscard]] ReadingTime measureReading(const ImporterSettings& settings, const std::filesystem::path& file,
+                                         const nlohmann::json& options = nlohmann::json::object());
+
 /// What a header says; no voxel was read.
 struct FilePreview {
     DatasetMeta meta;               ///< fields without statistics; no key

@@ -25,6 +25,7 @@ struct Arguments {
     std::uint64_t storeLimit = 0;
     std::string options = "{}";
     bool headerOnly = false;
+    bool measure = false;
     int threads = 0;
     ProcessLimits process;
     JobLimits job;
@@ -85,6 +86,11 @@ bool showHeaders(const Arguments& arguments, const AnswerWriter& answers) {
     return allGood;
 }
 
+void measureOne(const Arguments& arguments, const AnswerWriter& answers) {
+    const auto options = importOptionsFromJson(store::parseJson(arguments.options, "--options"));
+    answers.write(measureSource(ReaderRegistry(), arguments.files.front(), options, arguments.job));
+}
+
 void importOne(const Arguments& arguments, const AnswerWriter& answers) {
     if (arguments.store.empty()) throw InvalidInput("volume store", "no folder is named", "use --store DIR");
     using Clock = std::chrono::steady_clock;
@@ -110,6 +116,8 @@ void describe(CLI::App& app, Arguments& arguments) {
     app.add_option("--options", arguments.options, "options of the import as a JSON object");
     app.add_flag("--header-only", arguments.headerOnly,
                  "show what the headers of the files say, read no voxels");
+    app.add_flag("--measure", arguments.measure,
+                 "read the voxels of the first file, drop them, show the time it took");
     app.add_option("--memory-limit", arguments.process.memoryBytes,
                    "bytes this process may use, 0 = no limit");
     app.add_option("--max-voxel-bytes", arguments.job.maxVoxelBytes, "bytes of voxels that a file may hold");
@@ -141,6 +149,8 @@ int main(int argc, char** argv) {
         applyProcessLimits(arguments.process);
         if (arguments.headerOnly)
             good = showHeaders(arguments, answers);
+        else if (arguments.measure)
+            measureOne(arguments, answers);
         else
             importOne(arguments, answers);
     });

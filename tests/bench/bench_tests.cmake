@@ -59,3 +59,8 @@ if(TARGET voxsheet)
     set_tests_properties(bench.edit PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"all_ms\": .*\"dirty_ms\": .*\"ratio\": ")
 endif()
+if(TARGET voxsheet)
+    add_test(NAME bench.import COMMAND voxsheet bench import --dim 24 --repeats 1 --files 1,3 --file-dim 16 --json)
+    set_tests_properties(bench.import PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"format\": \"nrrd raw\".*\"plain_mb_s\".*\"format\": \"xsf\".*\"ratio\".*\"first_picture_ms\"")
+endif()

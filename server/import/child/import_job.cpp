@@ -9,6 +9,7 @@
 #include "store/store_writer.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace voxsheet::import {
 
@@ -130,6 +131,19 @@ FilePreview previewSource(const ReaderRegistry& readers, const std::filesystem::
     auto header = readHeader(readers.choose(file, options), file, options, limits);
     (void)applyOptions(header, options, {});
     return previewOf(header);
+}
+
+ReadingTime measureSource(const ReaderRegistry& readers, const std::filesystem::path& file,
+                          const ImportOptions& options, const JobLimits& limits) {
+    using Clock = std::chrono::steady_clock;
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    const auto start = Clock::now();
+    const auto& reader = readers.choose(file, options);
+    auto header = readHeader(reader, file, options, limits);
+    const auto afterHeader = Clock::now();
+    const auto sink = applyOptions(header, options, [](int, int, std::vector<std::byte>&&) {});
+    naming(file.string(), [&] { (void)reader.readData(header, sink, {}); });
+    return {seconds(afterHeader - start), seconds(Clock::now() - afterHeader), header.totalBytes()};
 }
 
 std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeStore& store,

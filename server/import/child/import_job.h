@@ -18,6 +18,10 @@ struct JobLimits {
     std::uint64_t maxVoxelBytes = 64ULL << 30;
 };
 
+/// Reads the voxels and drops them. Throws as the readers.
+[[nodiscard]] ReadingTime measureSource(const ReaderRegistry& readers, const std::filesystem::path& file,
+                                        const ImportOptions& options, const JobLimits& limits);
+
 /// The header phase: what is in the file, checked against its size; no voxel is read. Throws as the readers.
 [[nodiscard]] FilePreview previewSource(const ReaderRegistry& readers, const std::filesystem::path& file,
                                         const ImportOptions& options, const JobLimits& limits);

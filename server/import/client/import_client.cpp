@@ -174,6 +174,20 @@ ImportResult runImport(const ImporterSettings& settings, const ImportRequest& re
     session.failForEnd(file);
 }
 
+ReadingTime measureReading(const ImporterSettings& settings, const std::filesystem::path& file,
+                           const nlohmann::json& options) {
+    auto arguments = commonArguments(settings, options);
+    arguments.insert(arguments.end(), {"--measure", "--", argumentFor(file)});
+    const ImportCancelled never; // a session keeps a reference
+    Session session(settings, arguments, never);
+    session.startData(); // its one answer comes after the voxels
+    const auto message = session.next(file.string());
+    if (!message) session.failForEnd(file.string());
+    if (const auto* error = std::get_if<ErrorMessage>(&*message)) throwError(*error);
+    if (const auto* time = std::get_if<ReadingTime>(&*message)) return *time;
+    throw InternalError(file.string(), "the importer gave no time");
+}
+
 std::vector<std::variant<FilePreview, std::exception_ptr>>
 previewFiles(const ImporterSettings& settings, const std::vector<std::filesystem::path>& files,
              const nlohmann::json& options, const ImportCancelled& cancelled) {

@@ -22,6 +22,13 @@ json toJson(const ProgressMessage& message) { return {{"progress", message.fract
 
 json toJson(const KeyMessage& message) { return {{"key", message.key}}; }
 
+json toJson(const ReadingTime& time) {
+    return {{"measured",
+             {{"header_seconds", time.headerSeconds},
+              {"data_seconds", time.dataSeconds},
+              {"voxel_bytes", time.voxelBytes}}}};
+}
+
 json toJson(const ErrorMessage& error) {
     return {{"error",
              {{"kind", errorKindName(error.kind)},
@@ -46,6 +53,11 @@ ImporterMessage messageFromJson(const json& j) {
     if (j.contains("header")) return headerFromJson(j.at("header"));
     if (j.contains("progress")) return ProgressMessage{std::clamp(j.at("progress").get<double>(), 0.0, 1.0)};
     if (j.contains("error")) return errorFromJson(j.at("error"));
+    if (j.contains("measured")) {
+        const auto& time = j.at("measured");
+        return ReadingTime{time.at("header_seconds").get<double>(), time.at("data_seconds").get<double>(),
+                           time.at("voxel_bytes").get<std::uint64_t>()};
+    }
     KeyMessage message{j.at("key").get<std::string>()};
     if (!store::isStoreKey(message.key))
         throw InvalidInput("answer of the importer", "it names no store key");

@@ -2,6 +2,7 @@
 //   {"header": {"dataset": …, "voxel_bytes": n, "files": […]}}   the header is understood
 //   {"progress": 0.42}
 //   {"key": "…"}                                                 the entry is in the store: the last line
+//   {"measured": {"header_seconds": …, "data_seconds": …, "voxel_bytes": n}}   the only line, with --measure
 //   {"error": {"kind": …, "what": …, "why": …, "todo": …, "field": …}}   the last line of an import that
 //   failed
 // With --header-only there is one header or error line per file, in their order.
@@ -33,7 +34,7 @@ struct ErrorMessage {
     std::string toDo;
     std::string field;
 };
-using ImporterMessage = std::variant<FilePreview, ProgressMessage, KeyMessage, ErrorMessage>;
+using ImporterMessage = std::variant<FilePreview, ProgressMessage, KeyMessage, ReadingTime, ErrorMessage>;
 
 /// One line, without its end.
 [[nodiscard]] std::string encodeMessage(const ImporterMessage& message);
