@@ -58,7 +58,7 @@ TEST_P(FuzzSeeds, AreAnsweredWhenMutated) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, FuzzSeeds, ::testing::Range<std::size_t>(0, targets().size()),
-                         [](const auto& info) { return targets()[info.param].name; });
+                         [](const auto& seed) { return targets()[seed.param].name; });
 
 } // namespace
 } // namespace voxsheet::fuzz
