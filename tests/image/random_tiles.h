@@ -125,7 +125,7 @@ protected:
             VolumeLayer layer;
             layer.dataset = key;
             layer.transfer = fields::filledTable(field.low, field.high);
-            layer.unitLengthWorld = boundingRadiusWorld(grid) * number(0.05, 0.5);
+            layer.unitLengthWorld = boundingRadiusWorld(grid) * number(0.01, 0.2);
             layer.weight = number(0.2, 1.0);
             layers.volumes.push_back(layer);
         }
@@ -146,7 +146,7 @@ protected:
         tile.camera = randomCamera(grid);
         tile.clip = randomClip(grid);
         tile.shading = randomShading();
-        if (GetParam() == Technique::Raycast && coin(0.25)) tile.layers = randomLayers(grid, trial);
+        if (GetParam() == Technique::Raycast && coin()) tile.layers = randomLayers(grid, trial);
         if (GetParam() == Technique::Isosurface) tile.isosurface = randomIsosurface(grid, trial);
         return tile;
     }
