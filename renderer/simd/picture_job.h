@@ -89,8 +89,9 @@ struct PictureJob {
     float sampleDistanceVoxels = 0.5F;
     int chunkSamples = 1;
     LightNumbers light;
-    float unitsPerRadius = 1.0F; ///< ray casting
-    int layerCount = 0;          ///< ray casting
+    bool pairsShareLight = false; ///< ray casting: two samples, half a voxel apart at most, have one normal
+    float unitsPerRadius = 1.0F;  ///< ray casting
+    int layerCount = 0;           ///< ray casting
     LayerNumbers layers[kMaxLayerCount];
     float ownDensity = 1.0F; ///< where there are layers
     SurfaceNumbers surfaces; ///< isosurfaces

@@ -36,9 +36,17 @@ struct Caster {
                     pick(seen, lit(job.light, entry.rgb, normalAt(depth, at, seen, near), path.ray.toEye),
                          entry.rgb);
         }
-        const Float through = exp2OfNegative(zero() - entry.a * (length * unitsPerDepth));
+        add(entry.rgb, throughOf(entry, length));
+    }
+
+    // The part of light that passes `length` of depth.
+    HWY_INLINE Float throughOf(const Entry& entry, Float length) const {
+        return exp2OfNegative(zero() - entry.a * (length * unitsPerDepth));
+    }
+
+    HWY_INLINE void add(const Vec3& rgb, Float through) {
         const Float weight = light.transmittance * (num(1.0F) - through);
-        light.colour = light.colour + weight * entry.rgb;
+        light.colour = light.colour + weight * rgb;
         light.transmittance = light.transmittance * through;
     }
 
@@ -89,7 +97,38 @@ struct Caster {
         return ahead;
     }
 
+    // Two samples that share the normal between them.
+    HWY_INLINE void takeLitPair(Float depth, Mask first, Mask second) {
+        const Float next = depth + path.spacing;
+        const Entry entry = classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, depth)));
+        const Entry other = classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, next)));
+        const Float through = throughOf(entry, hn::IfThenElseZero(first, path.spacing));
+        const Float otherThrough = throughOf(other, hn::IfThenElseZero(second, path.spacing));
+        const Mask seen = through * otherThrough < num(1.0F);
+        Reflection reflection{num(1.0F), zero()};
+        if (any(seen)) {
+            const Float between = pick(second, hn::MulAdd(num(0.5F), path.spacing, depth), depth);
+            const Vec3 normal = normalAt(between, indexAt(path.ray, between), seen, none());
+            reflection = pick(seen, reflectionOf(job.light, normal, path.ray.toEye), reflection);
+        }
+        add(reflected(reflection, entry.rgb), through);
+        add(reflected(reflection, other.rgb), otherThrough);
+    }
+
+    HWY_INLINE void takeWholeLit(Mask active, Float chunk, Float stretches) {
+        const Float first = chunk * num(static_cast<float>(job.chunkSamples));
+        const Float count = pick(active, stretches - first, zero());
+        for (int k = 0; k < job.chunkSamples; k += 2) {
+            const Float step = num(static_cast<float>(k));
+            const Mask counts = step < count;
+            if (!any(counts)) break;
+            const Float depth = hn::MulAdd(first + step + num(0.5F), path.spacing, path.span.begin);
+            takeLitPair(depth, counts, step + num(1.0F) < count);
+        }
+    }
+
     HWY_INLINE void takeWhole(Mask active, Float chunk, Float stretches) {
+        if (job.pairsShareLight) return takeWholeLit(active, chunk, stretches);
         const Float first = chunk * num(static_cast<float>(job.chunkSamples));
         const Float count = pick(active, stretches - first, zero());
         for (int k = 0; k < job.chunkSamples; ++k) {

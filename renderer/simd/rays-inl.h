@@ -183,32 +183,55 @@ HWY_INLINE Float power(Float base, float exponent) {
     return result;
 }
 
-HWY_INLINE Vec3 lit(const LightNumbers& light, const Vec3& rgb, const Vec3& normal, const Vec3& toEye) {
+/// What light makes of a colour: min(matte rgb + shine, 1).
+struct Reflection {
+    Float matte, shine;
+};
+
+HWY_INLINE Reflection pick(Mask mask, const Reflection& yes, const Reflection& no) {
+    return {pick(mask, yes.matte, no.matte), pick(mask, yes.shine, no.shine)};
+}
+
+HWY_INLINE Vec3 reflected(const Reflection& reflection, const Vec3& rgb) {
+    const auto channel = [&](Float value) {
+        return hn::Min(hn::MulAdd(reflection.matte, value, reflection.shine), num(1.0F));
+    };
+    return {channel(rgb.x), channel(rgb.y), channel(rgb.z)};
+}
+
+// Of numbers above 1e-37; one step of Newton's method after the processor's estimate of 12 bits.
+HWY_INLINE Float inverseRoot(Float square) {
+    const Float estimate = hn::ApproximateReciprocalSqrt(square);
+    return estimate * hn::NegMulAdd(num(0.5F) * square * estimate, estimate, num(1.5F));
+}
+
+/// By a normal of any length and sign in the view frame; where it has none, colours stay.
+HWY_INLINE Reflection reflectionOf(const LightNumbers& light, const Vec3& normal, const Vec3& toEye) {
     const Float square = dot(normal, normal);
-    const Float length = num(1.0F) / hn::Sqrt(square);
+    const Float length = inverseRoot(hn::Max(square, num(1e-37F)));
     const Float towardsEye = dot(normal, toEye);
     const Float facing = hn::Abs(towardsEye) * length;
-    const Float ambient = num(light.material[0]), diffuse = num(light.material[1]),
-                specular = num(light.material[2]);
-    const auto add = [&](Vec3& colour, Mask counts, Float intensity, Float cosine, Float mirrored) {
-        const Float more = intensity * diffuse * cosine;
+    const Float diffuse = num(light.material[1]), specular = num(light.material[2]);
+    Reflection sum{num(light.material[0]), zero()};
+    const auto add = [&](Mask counts, Float intensity, Float cosine, Float mirrored) HWY_ATTR {
         const Float shine = intensity * specular * power(mirrored, light.material[3]);
-        colour.x = colour.x + hn::IfThenElseZero(counts, hn::MulAdd(more, rgb.x, shine));
-        colour.y = colour.y + hn::IfThenElseZero(counts, hn::MulAdd(more, rgb.y, shine));
-        colour.z = colour.z + hn::IfThenElseZero(counts, hn::MulAdd(more, rgb.z, shine));
+        sum.matte = sum.matte + hn::IfThenElseZero(counts, intensity * diffuse * cosine);
+        sum.shine = sum.shine + hn::IfThenElseZero(counts, shine);
     };
-    Vec3 colour = ambient * rgb;
-    add(colour, whole(true), num(light.headLight), facing, num(2.0F) * facing * facing - num(1.0F));
+    add(whole(true), num(light.headLight), facing, num(2.0F) * facing * facing - num(1.0F));
     const Float turned = pick(towardsEye < zero(), zero() - length, length);
     for (int i = 0; i < light.lightCount; ++i) {
         const Vec3 direction = spread(light.lights[i]);
         const Float towards = turned * dot(normal, direction);
-        add(colour, towards > zero(), num(light.lights[i][3]), towards,
+        add(towards > zero(), num(light.lights[i][3]), towards,
             num(2.0F) * towards * facing - dot(direction, toEye));
     }
-    const Float one = num(1.0F);
-    const Vec3 bounded{hn::Min(colour.x, one), hn::Min(colour.y, one), hn::Min(colour.z, one)};
-    return pick(square > zero(), bounded, rgb);
+    const Mask known = square > zero();
+    return {pick(known, sum.matte, num(1.0F)), hn::IfThenElseZero(known, sum.shine)};
+}
+
+HWY_INLINE Vec3 lit(const LightNumbers& light, const Vec3& rgb, const Vec3& normal, const Vec3& toEye) {
+    return reflected(reflectionOf(light, normal, toEye), rgb);
 }
 
 // Normals of the planes through which lanes entered; any for lanes that entered through none.

@@ -124,9 +124,10 @@ HWY_INLINE Float nearestTexelAt(const SampledVolume& volume, const Vec3& at) {
     return texelAt(volume, {nearest(0, at.x), nearest(1, at.y), nearest(2, at.z)});
 }
 
-// Of the row of the lower corner moved by `texels`: at x - 1, x and x + 1.
+// Of the row of the lower corner moved by `texels`: four texels from x - 1 on, and the value at x.
 struct Triple {
-    Float before, middle, after;
+    Pair before, after; ///< the outer two are before.low and after.high
+    Float middle;
 };
 
 template <TexelFormat format>
@@ -147,36 +148,49 @@ HWY_INLINE Triple tripleAt(const SampledVolume& volume, const Place& place, std:
         c = high.low;
         d = high.high;
     }
-    return {mix(a, b, place.x), mix(b, c, place.x), mix(c, d, place.x)};
+    return {{a, b}, {c, d}, mix(b, c, place.x)};
 }
 
-// Twice the central differences of six taps, from the 32 samples that all six touch. Positions at least one
-// sample from the ends.
-template <TexelFormat format>
-HWY_INLINE Vec3 innerGradient(const SampledVolume& volume, const Vec3& at) {
-    const Place place = placeOf(volume, at);
+// On axes that do not wrap, what the ends change of differences: taps do not leave the samples.
+struct AxisEnds {
+    Float low, high; ///< factors of the differences at the lower and the upper corner
+    Float all;       ///< of both
+};
+
+// Twice the central differences of six taps, from the 32 samples that all six touch. The border repeats the
+// samples at the ends, so that differences there only have to be divided by their shorter distance.
+template <TexelFormat format, bool atEnds>
+HWY_INLINE Vec3 gradientFrom32(const SampledVolume& volume, const Place& place, const AxisEnds* ends) {
     const std::ptrdiff_t row = volume.rowTexels;
     const std::ptrdiff_t slice = volume.sliceTexels;
     const Triple r00 = tripleAt<format>(volume, place, 0);
     const Triple r10 = tripleAt<format>(volume, place, row);
     const Triple r01 = tripleAt<format>(volume, place, slice);
     const Triple r11 = tripleAt<format>(volume, place, slice + row);
-    const auto bilinear = [&](Float v00, Float v10, Float v01, Float v11) {
+    const auto bilinear = [&](Float v00, Float v10, Float v01, Float v11) HWY_ATTR {
         return mix(mix(v00, v10, place.y), mix(v01, v11, place.y), place.z);
     };
+    const auto low = [&](int axis, Float value) HWY_ATTR { return atEnds ? ends[axis].low * value : value; };
+    const auto high = [&](int axis, Float value)
+                          HWY_ATTR { return atEnds ? ends[axis].high * value : value; };
+    const auto alongX = [&](const Triple& at) HWY_ATTR {
+        return mix(low(0, at.after.low - at.before.low), high(0, at.after.high - at.before.high), place.x);
+    };
     Vec3 twice;
-    twice.x = bilinear(r00.after - r00.before, r10.after - r10.before, r01.after - r01.before,
-                       r11.after - r11.before);
+    twice.x = bilinear(alongX(r00), alongX(r10), alongX(r01), alongX(r11));
     const Float below0 = rowAt<format>(volume, place, -row);
     const Float below1 = rowAt<format>(volume, place, slice - row);
     const Float above0 = rowAt<format>(volume, place, 2 * row);
     const Float above1 = rowAt<format>(volume, place, slice + 2 * row);
-    twice.y = bilinear(r10.middle - below0, above0 - r00.middle, r11.middle - below1, above1 - r01.middle);
+    twice.y = bilinear(low(1, r10.middle - below0), high(1, above0 - r00.middle), low(1, r11.middle - below1),
+                       high(1, above1 - r01.middle));
     const Float before0 = rowAt<format>(volume, place, -slice);
     const Float before1 = rowAt<format>(volume, place, row - slice);
     const Float after0 = rowAt<format>(volume, place, 2 * slice);
     const Float after1 = rowAt<format>(volume, place, row + 2 * slice);
-    twice.z = bilinear(r01.middle - before0, r11.middle - before1, after0 - r00.middle, after1 - r10.middle);
+    twice.z = bilinear(low(2, r01.middle - before0), low(2, r11.middle - before1),
+                       high(2, after0 - r00.middle), high(2, after1 - r10.middle));
+    if (atEnds) twice = {ends[0].all * twice.x, ends[1].all * twice.y, ends[2].all * twice.z};
     return twice;
 }
 
@@ -222,28 +236,80 @@ inline HWY_NOINLINE Vec3 outerGradient(const SampledVolume& volume, const Vec3& 
     return {slope(0), slope(1), slope(2)};
 }
 
+// Where differences are taken: between the samples on axes that do not wrap, wrapped on others.
+HWY_INLINE Float slopeAxis(const SampledVolume& volume, int axis, Float at) {
+    const float n = volume.samples[axis];
+    if (volume.periodic[axis]) return at - num(n) * hn::Floor(at * num(1.0F / n));
+    return clampTo(at, 0.0F, (n - 1.0F) * (1.0F - 1e-7F)); // never the last sample as a lower corner
+}
+
+HWY_INLINE Place slopePlace(const SampledVolume& volume, const Vec3& at) {
+    const Int x = truncated(at.x), y = truncated(at.y), z = truncated(at.z);
+    const Int border = hn::Set(kI, 1 + volume.rowTexels + volume.sliceTexels);
+    Place place;
+    hn::Store(border + x + y * hn::Set(kI, volume.rowTexels) + z * hn::Set(kI, volume.sliceTexels), kI,
+              place.offsets);
+    place.x = at.x - hn::ConvertTo(kF, x);
+    place.y = at.y - hn::ConvertTo(kF, y);
+    place.z = at.z - hn::ConvertTo(kF, z);
+    return place;
+}
+
+HWY_INLINE AxisEnds axisEnds(const SampledVolume& volume, int axis, Float at, bool betweenSamples) {
+    const Float one = num(1.0F), two = num(2.0F);
+    AxisEnds ends{one, one, one};
+    if (volume.periodic[axis]) return ends;
+    const Mask first = at < one;
+    const Mask last = at >= num(volume.samples[axis] - 2.0F);
+    if (betweenSamples) {
+        ends.low = pick(first, two, one);
+        ends.high = pick(last, two, one);
+    } else {
+        const Float weight = at - hn::Floor(at);
+        ends.all = two / (pick(first, weight, one) + pick(last, one - weight, one));
+    }
+    return ends;
+}
+
+template <TexelFormat format>
+HWY_INLINE Vec3 gradientIn(const SampledVolume& volume, const Vec3& at, Mask wanted, bool betweenSamples) {
+    Mask ends = none(), wraps = none();
+    const auto place = [&](int axis, Float position) HWY_ATTR {
+        const Float inside = slopeAxis(volume, axis, position);
+        const Mask last = inside >= num(volume.samples[axis] - (volume.periodic[axis] ? 1.0F : 2.0F));
+        if (volume.periodic[axis])
+            wraps = either(wraps, last);
+        else
+            ends = either(ends, either(last, inside < num(1.0F)));
+        return inside;
+    };
+    Vec3 inside{place(0, at.x), place(1, at.y), place(2, at.z)};
+    const bool thin = volume.samples[0] < 2.0F || volume.samples[1] < 2.0F || volume.samples[2] < 2.0F;
+    if (thin || any(both(wanted, wraps))) return outerGradient(volume, at, betweenSamples);
+    inside = pick(wraps, {zero(), zero(), zero()}, inside);
+    if (!any(both(wanted, ends)))
+        return gradientFrom32<format, false>(volume, slopePlace(volume, inside), nullptr);
+    const AxisEnds axes[3] = {axisEnds(volume, 0, inside.x, betweenSamples),
+                              axisEnds(volume, 1, inside.y, betweenSamples),
+                              axisEnds(volume, 2, inside.z, betweenSamples)};
+    return gradientFrom32<format, true>(volume, slopePlace(volume, inside), axes);
+}
+
 /// Differences per voxel, up to a common positive factor, of the lanes of the mask. Within a voxel of the
 /// ends it matters whether they are taken at samples and interpolated between them, or about the points
 /// themselves.
 HWY_INLINE Vec3 gradientAt(const SampledVolume& volume, const Vec3& at, Mask wanted, bool betweenSamples) {
-    const auto innerAxis = [&](int axis, Float position) {
-        return both(position >= num(1.0F), position <= num(volume.samples[axis] - 2.0F));
-    };
-    const Mask inner = both(both(innerAxis(0, at.x), innerAxis(1, at.y)), innerAxis(2, at.z));
-    if (any(butNot(wanted, inner))) return outerGradient(volume, at, betweenSamples);
-    const float middle[3] = {1.0F, 1.0F, 1.0F};
-    const Vec3 safe = pick(inner, at, spread(middle));
     switch (volume.format) {
     case TexelFormat::R8:
-        return innerGradient<TexelFormat::R8>(volume, safe);
+        return gradientIn<TexelFormat::R8>(volume, at, wanted, betweenSamples);
     case TexelFormat::R16:
-        return innerGradient<TexelFormat::R16>(volume, safe);
+        return gradientIn<TexelFormat::R16>(volume, at, wanted, betweenSamples);
     case TexelFormat::R16F:
-        return innerGradient<TexelFormat::R16F>(volume, safe);
+        return gradientIn<TexelFormat::R16F>(volume, at, wanted, betweenSamples);
     case TexelFormat::R32F:
         break;
     }
-    return innerGradient<TexelFormat::R32F>(volume, safe);
+    return gradientIn<TexelFormat::R32F>(volume, at, wanted, betweenSamples);
 }
 
 struct Entry {

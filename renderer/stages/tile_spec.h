@@ -70,4 +70,11 @@ struct TileSpec {
            tile.technique == Technique::Isosurface;
 }
 
+/// Lit ray casting of one volume, with samples half a voxel apart at most: two samples have one normal
+/// (techniques/raycast/raycast.h).
+[[nodiscard]] inline bool pairsShareLight(const TileSpec& tile) {
+    return tile.technique == Technique::Raycast && tile.shading.enabled && tile.layers.volumes.empty() &&
+           tile.sampleDistanceVoxels <= 0.5;
+}
+
 } // namespace voxsheet

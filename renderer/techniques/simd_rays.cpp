@@ -227,6 +227,7 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     const float opacity = largestOpacity(*tile.transfer);
     job.opacityScale = opacity > 0.0F ? 1.0F / opacity : 0.0F;
     setLayers(job, stages, request);
+    job.pairsShareLight = pairsShareLight(tile);
     if (!stages.skipEmptySpace) return job;
     auto& emptySpace = stages.emptySpace;
     switch (tile.technique) {

@@ -69,6 +69,16 @@ Matter matterOfAll(const RayTruth& ray, double depth) {
     return matter;
 }
 
+/// Where the normal of a sample at `depth` is taken (techniques/raycast/raycast.h). Which chunks an object
+/// keeps whole is not known here.
+double normalDepth(const RayTruth& ray, double depth) {
+    if (!pairsShareLight(ray.tile) || ray.sources.clip) return depth;
+    const double step = ray.tile.sampleDistanceVoxels / ray.voxelsPerDepth;
+    const double whole = std::floor((ray.range.end - ray.range.begin) / step);
+    const double second = 2.0 * std::floor((depth - ray.range.begin) / (2.0 * step)) + 1.0;
+    return second < whole ? ray.range.begin + second * step : depth;
+}
+
 /// The stretch [begin, end] of a volume, as far as it is kept, one sample in the middle of that.
 void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     if (ray.sources.clip && ray.tile.clip.object->binary) {
@@ -92,7 +102,8 @@ void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     if (std::isnan(value)) return;
     const auto entry = classify(*ray.tile.transfer, value);
     const double exponent = length / ray.tile.unitLengthWorld;
-    light.add(ray.lit(glm::dvec3(entry), ray.sampleNormal(depth)), 1.0 - std::pow(1.0 - entry.w, exponent));
+    light.add(ray.lit(glm::dvec3(entry), ray.sampleNormal(normalDepth(ray, depth))),
+              1.0 - std::pow(1.0 - entry.w, exponent));
 }
 
 /// Whole stretches from the front, and the shorter rest.

@@ -76,6 +76,27 @@ TEST_F(Shading, AnisotropicShearedAndPeriodicGrids) {
         }
 }
 
+// Here every sample lies within a voxel of an end, where differences are one-sided.
+TEST_F(Shading, EndsOfSmallVolumes) {
+    auto field = fields::gaussianSum();
+    for (const auto dims : {glm::ivec3(2, 3, 4), glm::ivec3(3, 2, 3), glm::ivec3(4, 4, 2)})
+        for (const auto centring : {Centring::Point, Centring::Cell}) {
+            auto grid = fields::gridOf(fields::Geometry::Isotropic, 4);
+            grid.dims = dims;
+            grid.centring = centring;
+            const auto key = std::to_string(dims.x) + std::to_string(dims.y) + std::to_string(dims.z) +
+                             (centring == Centring::Cell ? " cells" : "");
+            add(field, grid, ScalarType::F32, key);
+            for (const auto gradient : {GradientSource::OnTheFly, GradientSource::Texture}) {
+                auto tile = litTile(grid, field, key);
+                tile.unitLengthWorld = 0.02; // dense enough to be seen
+                tile.sampleDistanceVoxels = 0.1;
+                tile.shading.gradient = gradient;
+                (void)agree(tile);
+            }
+        }
+}
+
 TEST_F(Shading, TextureAndSixTapsGiveOnePicture) {
     const auto field = fields::marschnerLobb();
     const auto grid = fields::gridOf(fields::Geometry::Isotropic, 40);

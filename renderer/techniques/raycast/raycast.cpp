@@ -17,6 +17,7 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const int longest = chunkSamples(tile.sampleDistanceVoxels, kShortReach);
     const int samples = volumes.clipObject != nullptr ? std::min(4, longest) : longest;
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
+    defines.emplace_back("PAIRS_SHARE_LIGHT", pairsShareLight(tile) ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
     stages.bindFor(program, request);

@@ -2,6 +2,7 @@
 //   CHUNK_SAMPLES  samples that one look-up of empty space answers for
 //   SKIP_EMPTY     1: stretches that cannot show anything are left out
 //   LAYERS         volumes blended with the drawn one
+//   PAIRS_SHARE_LIGHT  1: two samples of whole stretches have one normal
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
@@ -84,11 +85,42 @@ void takeSample(inout Light light, Path path, float depth, float length, bool ne
     add(light, entry, length * path.unitsPerDepth);
 }
 
+#if PAIRS_SHARE_LIGHT
+void addThrough(inout Light light, vec3 rgb, float through) {
+    light.colour += light.transmittance * (1.0 - through) * rgb;
+    light.transmittance *= through;
+}
+
+// Two samples that share the normal between them.
+void takeLitPair(inout Light light, Path path, float depth, bool first, bool second) {
+    vec4 entry = classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction));
+    vec4 other = classifyTexel(texelAt(path.ray.origin + (depth + path.spacing) * path.ray.direction));
+    float units = path.spacing * path.unitsPerDepth;
+    float through = first ? exp2(-entry.a * units) : 1.0;
+    float otherThrough = second ? exp2(-other.a * units) : 1.0;
+    Reflection reflection = Reflection(1.0, 0.0);
+    if (through * otherThrough < 1.0) {
+        float between = second ? depth + 0.5 * path.spacing : depth;
+        vec3 normal;
+        bool behindCut = cutNormalAt(path, between, false, normal);
+        if (!behindCut) normal = gradientNormal(path.ray.origin + between * path.ray.direction);
+        reflection = reflectionOf(normal, path.ray.toEye);
+    }
+    addThrough(light, reflected(reflection, entry.rgb), through);
+    addThrough(light, reflected(reflection, other.rgb), otherThrough);
+}
+
+void takeWhole(inout Light light, Path path, int first, int count) {
+    for (int k = 0; k < CHUNK_SAMPLES; k += 2)
+        takeLitPair(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count, k + 1 < count);
+}
+#else
 // `count` whole stretches; none or fewer than a chunk's where the path ends.
 void takeWhole(inout Light light, Path path, int first, int count) {
     for (int k = 0; k < CHUNK_SAMPLES; ++k)
         takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count ? path.spacing : 0.0, false);
 }
+#endif
 
 #if CLIP_OBJECT
 // The stretch [begin, end], as far as the object keeps it; gives the measure at its end, which the next one begins with.

@@ -8,6 +8,9 @@
 // sum of alpha_i rgb_i prod_{j<i} (1 - alpha_j), in 32-bit floats, front to back; a ray may end once its
 // transmittance is below 1/1024. Where other volumes are blended (stages/layer_spec.h), opacity and rgb are
 // those of all of them at the sample.
+//
+// Light: where pairsShareLight(), samples 2k and 2k + 1 of the whole stretches have the normal half-way
+// between them; not in chunks that an object clips.
 #pragma once
 
 #include "stages/shared_stages.h"
