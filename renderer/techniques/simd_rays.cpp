@@ -217,10 +217,7 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.light = lightOf(tile, volume);
     job.unitsPerRadius = static_cast<float>(frame.radiusWorld / tile.unitLengthWorld);
     const int reach = tile.technique == Technique::Mip ? kLongReach : kShortReach;
-    const int longest = chunkSamples(tile.sampleDistanceVoxels, reach);
-    // Near a clip object's surface samples are dear, and short chunks keep close to it.
-    const bool keepsClose = tile.technique == Technique::Raycast && volumes.clipObject != nullptr;
-    job.chunkSamples = keepsClose ? std::min(4, longest) : longest;
+    job.chunkSamples = chunkSamples(tile.sampleDistanceVoxels, reach);
     if (tile.technique == Technique::Isosurface) setSurfaces(job.surfaces, request);
     job.table = sampledTable(tableOf(tile.transfer), *tile.transfer, volume);
     job.texelSign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
