@@ -44,6 +44,19 @@ bool holdsWithoutAnyOne(std::span<const TimePoint> segment, const Candidate& can
     return true;
 }
 
+/// Where a curve that surely broke the rule had begun to: the steepest part of it hides a bend before, which
+/// alone would have to be as sure as the first. Now that there is a bend for certain, it counts when it is
+/// there for certain itself and its own best estimate is above the limit.
+Candidate begunAt(std::span<const TimePoint> segment, Candidate candidate, double ratioLimit) {
+    while (true) {
+        const auto earlier = surestBend(segment.first(candidate.bend + 1));
+        if (!earlier || !earlier->ratio.comparable || earlier->ratio.significance < 0.0 ||
+            earlier->ratio.value <= ratioLimit)
+            return candidate;
+        candidate = *earlier;
+    }
+}
+
 /// A last segment that is straight in itself, but steeper than the first.
 std::optional<SlopeBend> creptUp(std::span<const TimePoint> first, std::span<const TimePoint> last,
                                  double ratioLimit) {
@@ -65,7 +78,8 @@ std::optional<SlopeBend> newestBend(std::span<const TimePoint> segment, double r
     if (!breaks && !keeps) return std::nullopt;
     if (!holdsWithoutAnyOne(segment, *surest, breaks ? std::optional(ratioLimit) : std::nullopt))
         return std::nullopt;
-    return SlopeBend{segment[surest->bend].n, segment.back().n, surest->ratio, breaks};
+    const auto bend = breaks ? begunAt(segment, *surest, ratioLimit) : *surest;
+    return SlopeBend{segment[bend.bend].n, segment.back().n, bend.ratio, breaks};
 }
 
 std::optional<SlopeRatio> newestSlopeRatio(std::span<const TimePoint> segment) {

@@ -10,7 +10,9 @@
 //    above three standard errors. One point alone will do when it is the median of at least 12 frames.
 // It breaks the rule when the lower 95 % confidence bound of the ratio of slopes is above the limit (and the
 // ratio itself, with any one point left out); it is known to keep the rule when the upper bound is below the
-// limit, and it is taken to when the curve fell before. In between, more points are awaited.
+// limit, and it is taken to when the curve fell before. In between, more points are awaited. A curve that
+// broke the rule did so from the first bend before that whose difference is as sure and whose ratio is above
+// the limit, sure or not: where a texture budget fills, the curve often rises in two steps.
 #pragma once
 
 #include "resolution/slope_fit.h"

@@ -139,7 +139,7 @@ private:
         if (function_.scale != ValueScale::Linear) add(scaleName(function_.scale));
         if (look_.sharedRange && !look_.colouredBy) add("shared");
         const int y = bar_.low.y - font_ - (function_.hasAbove ? width() : 0);
-        label({bar_.high.x, y}, caption, colours_.quiet);
+        label({bar_.high.x, y}, caption, colours_.text);
         if (!look_.layers.empty()) label({bar_.high.x, y - font_ * 3 / 2}, fusedText(look_), colours_.text);
     }
 

@@ -9,7 +9,7 @@ namespace voxsheet::engine {
 /// Not premultiplied.
 struct BarColours {
     glm::vec4 text{1.0F};
-    glm::vec4 quiet{1.0F}; ///< caption, ticks and edges
+    glm::vec4 quiet{1.0F}; ///< ticks and edges
     glm::vec4 background{
         0.0F}; ///< behind the volume: figures get an outline of it, to be legible on any picture
 };
