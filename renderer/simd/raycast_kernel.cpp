@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace voxsheet::simd::HWY_NAMESPACE {
 namespace {
 
-template <TexelFormat format>
+template <TexelFormat format, bool preIntegrated>
 struct Caster {
     const PictureJob& job;
     Path path;
@@ -97,17 +97,48 @@ struct Caster {
         return ahead;
     }
 
-    // Two samples that share the normal between them.
-    HWY_INLINE void takeLitPair(Float depth, Mask first, Mask second) {
-        const Float next = depth + path.spacing;
-        const Entry entry = classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, depth)));
-        const Entry other = classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, next)));
+    // Where a stretch begins: its position over the table's entries, and the integrals up to there.
+    struct Boundary {
+        Float position;
+        Entry integrals;
+    };
+
+    HWY_INLINE Boundary boundaryAt(Float depth) const {
+        Boundary boundary;
+        boundary.position = entryPosition(job.table, trilinear<format>(job.volume, indexAt(path.ray, depth)));
+        boundary.integrals = integralAt(job.table, pick(isNan(boundary.position), zero(), boundary.position));
+        return boundary;
+    }
+
+    HWY_INLINE Boundary firstBoundary(Float depth) const {
+        if constexpr (preIntegrated) return boundaryAt(depth);
+        return Boundary{};
+    }
+
+    // What the whole stretch from `depth` on shows; `begin` becomes its end.
+    HWY_INLINE Entry stretchEntry(Float depth, Boundary& begin) const {
+        if constexpr (preIntegrated) {
+            const Boundary end = boundaryAt(depth + path.spacing);
+            const Entry mean =
+                meanEntry(job.table, begin.position, begin.integrals, end.position, end.integrals);
+            begin = end;
+            return mean;
+        } else {
+            const Float middle = hn::MulAdd(num(0.5F), path.spacing, depth);
+            return classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, middle)));
+        }
+    }
+
+    // Two stretches that share the normal between them.
+    HWY_INLINE void takeLitPair(Float depth, Mask first, Mask second, Boundary& begin) {
+        const Entry entry = stretchEntry(depth, begin);
+        const Entry other = stretchEntry(depth + path.spacing, begin);
         const Float through = throughOf(entry, hn::IfThenElseZero(first, path.spacing));
         const Float otherThrough = throughOf(other, hn::IfThenElseZero(second, path.spacing));
         const Mask seen = through * otherThrough < num(1.0F);
         Reflection reflection{num(1.0F), zero()};
         if (any(seen)) {
-            const Float between = pick(second, hn::MulAdd(num(0.5F), path.spacing, depth), depth);
+            const Float between = hn::MulAdd(pick(second, num(1.0F), num(0.5F)), path.spacing, depth);
             const Vec3 normal = normalAt(between, indexAt(path.ray, between), seen, none());
             reflection = pick(seen, reflectionOf(job.light, normal, path.ray.toEye), reflection);
         }
@@ -118,17 +149,39 @@ struct Caster {
     HWY_INLINE void takeWholeLit(Mask active, Float chunk, Float stretches) {
         const Float first = chunk * num(static_cast<float>(job.chunkSamples));
         const Float count = pick(active, stretches - first, zero());
+        Boundary begin = firstBoundary(chunkBegin(chunk));
         for (int k = 0; k < job.chunkSamples; k += 2) {
             const Float step = num(static_cast<float>(k));
             const Mask counts = step < count;
             if (!any(counts)) break;
-            const Float depth = hn::MulAdd(first + step + num(0.5F), path.spacing, path.span.begin);
-            takeLitPair(depth, counts, step + num(1.0F) < count);
+            const Float depth = hn::MulAdd(first + step, path.spacing, path.span.begin);
+            takeLitPair(depth, counts, step + num(1.0F) < count, begin);
+        }
+    }
+
+    HWY_INLINE void takeMeans(Mask active, Float chunk, Float stretches) {
+        const Float first = chunk * num(static_cast<float>(job.chunkSamples));
+        const Float count = pick(active, stretches - first, zero());
+        Boundary begin = firstBoundary(chunkBegin(chunk));
+        for (int k = 0; k < job.chunkSamples; ++k) {
+            const Float step = num(static_cast<float>(k));
+            const Mask counts = step < count;
+            if (!any(counts)) break;
+            const Float depth = hn::MulAdd(first + step, path.spacing, path.span.begin);
+            Entry entry = stretchEntry(depth, begin);
+            const Mask seen = both(entry.a > zero(), counts);
+            if (job.light.enabled && any(seen)) {
+                const Float middle = hn::MulAdd(num(0.5F), path.spacing, depth);
+                const Vec3 normal = normalAt(middle, indexAt(path.ray, middle), seen, none());
+                entry.rgb = pick(seen, lit(job.light, entry.rgb, normal, path.ray.toEye), entry.rgb);
+            }
+            add(entry.rgb, throughOf(entry, hn::IfThenElseZero(counts, path.spacing)));
         }
     }
 
     HWY_INLINE void takeWhole(Mask active, Float chunk, Float stretches) {
         if (job.pairsShareLight) return takeWholeLit(active, chunk, stretches);
+        if constexpr (preIntegrated) return takeMeans(active, chunk, stretches);
         const Float first = chunk * num(static_cast<float>(job.chunkSamples));
         const Float count = pick(active, stretches - first, zero());
         for (int k = 0; k < job.chunkSamples; ++k) {
@@ -262,13 +315,19 @@ struct Caster {
     }
 };
 
-template <TexelFormat format>
-void castRows(const PictureJob& job, int firstRow, int endRow) {
+template <TexelFormat format, bool preIntegrated>
+void castRowsBy(const PictureJob& job, int firstRow, int endRow) {
     drawRows(job, firstRow, endRow, [&](int x, int y) HWY_ATTR {
-        Caster<format> caster{job, pathOf(job, x, y), zero(), {}};
+        Caster<format, preIntegrated> caster{job, pathOf(job, x, y), zero(), {}};
         caster.cast();
         storePacket(job, x, y, caster.light.colour, num(1.0F) - caster.light.transmittance);
     });
+}
+
+template <TexelFormat format>
+void castRows(const PictureJob& job, int firstRow, int endRow) {
+    if (job.table.integrals != nullptr) return castRowsBy<format, true>(job, firstRow, endRow);
+    castRowsBy<format, false>(job, firstRow, endRow);
 }
 
 } // namespace

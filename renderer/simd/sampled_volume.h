@@ -21,8 +21,9 @@ struct SampledVolume {
 
 /// A transfer table and the way to its entries (stages/classification.h).
 struct SampledTable {
-    const float* entries = nullptr; ///< rgb and extinction per entry
-    int scale = 0;                  ///< ValueScale
+    const float* entries = nullptr;   ///< rgb and extinction per entry
+    const float* integrals = nullptr; ///< stages/preintegration.h; null: not wanted
+    int scale = 0;                    ///< ValueScale
     float mappedFromTexel[2] = {1.0F, 0.0F};
     float entryFromMapped[2] = {1.0F, 0.0F};
     float lastEntry = 0.0F;

@@ -363,6 +363,54 @@ HWY_INLINE Entry classify(const SampledTable& table, Float texel) {
     return result;
 }
 
+// --- pre-integration: stages/preintegration.glsl ---
+
+/// Position over the entries; beyond the ends, too. NaN stays.
+HWY_INLINE Float entryPosition(const SampledTable& table, Float texel) {
+    const Mask absent = isNan(texel);
+    const Float mapped =
+        scaledValue(table.scale, hn::MulAdd(pick(absent, zero(), texel), num(table.mappedFromTexel[0]),
+                                            num(table.mappedFromTexel[1])));
+    const float farBeyond = 65536.0F;
+    const Float position =
+        clampTo(hn::MulAdd(mapped, num(table.entryFromMapped[0]), num(table.entryFromMapped[1])), -farBeyond,
+                farBeyond);
+    return pick(absent, texel, position);
+}
+
+HWY_INLINE Entry integralAt(const SampledTable& table, Float position) {
+    const Float first = hn::Floor(clampTo(position, 0.0F, table.lastEntry));
+    const Int index = truncated(first);
+    const Entry before = entryAt(table.integrals, index);
+    const Entry after = entryAt(table.integrals + 4, index);
+    const Float beyond = position - first;
+    return {{mix(before.rgb.x, after.rgb.x, beyond), mix(before.rgb.y, after.rgb.y, beyond),
+             mix(before.rgb.z, after.rgb.z, beyond)},
+            mix(before.a, after.a, beyond)};
+}
+
+/// Mean of the table between two positions with integrals there.
+HWY_INLINE Entry meanEntry(const SampledTable& table, Float begin, const Entry& upToBegin, Float end,
+                           const Entry& upToEnd) {
+    const Float width = end - begin;
+    const Float sum = upToEnd.a - upToBegin.a;
+    const Float extinction = hn::Max(sum / width, zero());
+    const Mask seen = extinction > zero(); // not if NaN
+    const Float inverse = num(1.0F) / sum;
+    const auto channel = [&](Float to, Float from) HWY_ATTR {
+        return hn::IfThenElseZero(seen, clampTo((to - from) * inverse, 0.0F, 1.0F));
+    };
+    Entry mean{{channel(upToEnd.rgb.x, upToBegin.rgb.x), channel(upToEnd.rgb.y, upToBegin.rgb.y),
+                channel(upToEnd.rgb.z, upToBegin.rgb.z)},
+               hn::IfThenElseZero(seen, extinction)};
+    // Values that stay within two entries need no mean, and sums in 32 bits would not give it.
+    const Mask narrow = hn::Abs(width) < num(2.0F);
+    if (!any(narrow)) return mean;
+    const Float middle = pick(narrow, num(0.5F) * (begin + end), zero());
+    const Entry entry = entryAt(table.entries, truncated(clampTo(middle, 0.0F, table.lastEntry)));
+    return {pick(narrow, entry.rgb, mean.rgb), pick(narrow, entry.a, mean.a)};
+}
+
 // The cell of a point of the texture frame.
 HWY_INLINE Int cellAt(const SampledCells& cells, const Vec3& position) {
     const auto onAxis = [&](int axis, Float at) {

@@ -1,5 +1,7 @@
 #include "stages/classification.h"
 
+#include "stages/preintegration.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -57,7 +59,7 @@ ClassificationMapping classificationMapping(const TransferTable& table, double v
 }
 
 ClassificationStage::ClassificationStage(gpu::Context& context)
-    : context_(context), textures_(kCachedTables) {}
+    : context_(context), textures_(kCachedTables), integrals_(kCachedTables) {}
 
 gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, const ResidentVolume& volume,
                                                 bool filterFloats, bool categories) {
@@ -69,17 +71,30 @@ gpu::ShaderDefines ClassificationStage::defines(const TransferTable& table, cons
             {"SHADER_FILTER", filter}};
 }
 
-void ClassificationStage::bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit) {
-    const auto* texture = textures_.find(
+namespace {
+
+/// A table as a texture, made when it is new.
+template <typename Cache, typename MakeTexels>
+const gpu::Texture& tableTexture(Cache& cache, gpu::Context& context,
+                                 const std::shared_ptr<const TransferTable>& table, MakeTexels makeTexels) {
+    const auto* texture = cache.find(
         [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
-    if (texture == nullptr) {
-        const auto texels = shaderTable(*table);
-        const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
-        gpu::Texture fresh(context_, GL_TEXTURE_1D, GL_RGBA32F, size);
-        fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
-        texture = &textures_.insert(table, std::move(fresh));
-    }
-    texture->bind(unit);
+    if (texture != nullptr) return *texture;
+    const std::vector<glm::vec4> texels = makeTexels(*table);
+    const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
+    gpu::Texture fresh(context, GL_TEXTURE_1D, GL_RGBA32F, size);
+    fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
+    return cache.insert(table, std::move(fresh));
+}
+
+} // namespace
+
+void ClassificationStage::bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit) {
+    tableTexture(textures_, context_, table, shaderTable).bind(unit);
+}
+
+void ClassificationStage::bindIntegrals(const std::shared_ptr<const TransferTable>& table) {
+    tableTexture(integrals_, context_, table, integralTable).bind(integralUnit);
 }
 
 void ClassificationStage::bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,

@@ -32,6 +32,7 @@ class ClassificationStage {
 public:
     static constexpr GLuint volumeUnit = 0;
     static constexpr GLuint tableUnit = 1;
+    static constexpr GLuint integralUnit = 17;
 
     explicit ClassificationStage(gpu::Context& context);
 
@@ -44,12 +45,18 @@ public:
     void bind(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
               const ResidentVolume& volume);
 
+    /// Binds the integrals of a table (preintegration.glsl).
+    void bindIntegrals(const std::shared_ptr<const TransferTable>& table);
+
     /// Binds a table alone.
     void bindTable(const std::shared_ptr<const TransferTable>& table, GLuint unit);
 
 private:
     gpu::Context& context_;
-    RecentCache<std::shared_ptr<const TransferTable>, gpu::Texture> textures_;
+    using Textures = RecentCache<std::shared_ptr<const TransferTable>, gpu::Texture>;
+
+    Textures textures_;
+    Textures integrals_;
 };
 
 } // namespace voxsheet

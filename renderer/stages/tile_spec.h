@@ -22,6 +22,12 @@ namespace voxsheet {
 
 enum class Technique { Slices, Raycast, Mip, Surface, Isosurface, Plane };
 
+/// What the transfer function is asked for along a ray.
+enum class Classification {
+    AtSamples,     ///< entries at the samples
+    PreIntegrated, ///< their mean between the values at the ends of each stretch (stages/preintegration.h)
+};
+
 enum class Projection { Perspective, Orthographic };
 
 /// A camera in the world frame; it looks along -z of the view frame, x right, y up.
@@ -43,6 +49,7 @@ struct TileSpec {
     std::shared_ptr<const TransferTable> transfer; ///< never null; content, not identity, matters
     double unitLengthWorld = 1.0;                  ///< path length over which table opacities hold, > 0
     double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
+    Classification classification = Classification::AtSamples; ///< heeded where preIntegrates()
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
     PeriodicWindow periodic;                      ///< of the cell's own volume only
@@ -68,6 +75,13 @@ struct TileSpec {
     if (tile.categories || ofCategories || (!tile.crystal.empty() && tile.clip.object)) return false;
     return tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
            tile.technique == Technique::Isosurface;
+}
+
+/// True where whole stretches show the mean of the transfer function: ray casting of one volume that no
+/// object clips.
+[[nodiscard]] inline bool preIntegrates(const TileSpec& tile) {
+    return tile.technique == Technique::Raycast && tile.classification == Classification::PreIntegrated &&
+           tile.layers.volumes.empty() && !tile.clip.object && !tile.categories;
 }
 
 /// Lit ray casting of one volume, with samples half a voxel apart at most: two samples have one normal

@@ -3,6 +3,7 @@
 
 #include "stages/gradient_frame.h"
 #include "stages/layer_stage.h"
+#include "stages/preintegration.h"
 #include "techniques/isosurface/surface_texels.h"
 #include "volume/parallel_for.h"
 
@@ -142,14 +143,20 @@ simd::Kernel kernelOf(Technique technique) {
     return technique == Technique::Mip ? simd::mipRows : simd::raycastRows;
 }
 
+template <typename Cache, typename Make>
+const std::vector<glm::vec4>& cached(Cache& cache, const std::shared_ptr<const TransferTable>& table,
+                                     Make make) {
+    const auto* entries = cache.find(
+        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
+    return entries != nullptr ? *entries : cache.insert(table, make(*table));
+}
+
 } // namespace
 
-SimdRays::SimdRays() : tables_(kCachedTables) {}
+SimdRays::SimdRays() : tables_(kCachedTables), integrals_(kCachedTables) {}
 
 const std::vector<glm::vec4>& SimdRays::tableOf(const std::shared_ptr<const TransferTable>& table) {
-    const auto* entries = tables_.find(
-        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
-    return entries != nullptr ? *entries : tables_.insert(table, shaderTable(*table));
+    return cached(tables_, table, shaderTable);
 }
 
 void SimdRays::setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request) {
@@ -220,6 +227,8 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.chunkSamples = chunkSamples(tile.sampleDistanceVoxels, reach);
     if (tile.technique == Technique::Isosurface) setSurfaces(job.surfaces, request);
     job.table = sampledTable(tableOf(tile.transfer), *tile.transfer, volume);
+    if (preIntegrates(tile))
+        job.table.integrals = &cached(integrals_, tile.transfer, integralTable).front().x;
     job.texelSign = volume.valueScale < 0.0 ? -1.0F : 1.0F;
     const float opacity = largestOpacity(*tile.transfer);
     job.opacityScale = opacity > 0.0F ? 1.0F / opacity : 0.0F;

@@ -26,7 +26,10 @@ private:
     void setLayers(simd::PictureJob& job, SharedStages& stages, const DrawRequest& request);
     void setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request);
 
-    RecentCache<std::shared_ptr<const TransferTable>, std::vector<glm::vec4>> tables_;
+    using Tables = RecentCache<std::shared_ptr<const TransferTable>, std::vector<glm::vec4>>;
+
+    Tables tables_;
+    Tables integrals_;
     std::vector<float> pixels_; ///< rgba
     std::vector<float> solids_; ///< the same of DrawVolumes::solids
 };

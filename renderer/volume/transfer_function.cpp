@@ -210,6 +210,8 @@ std::shared_ptr<const TransferTable> buildTransferTable(const TransferFunction& 
 
 double tablePosition(const TransferTable& table, double value) { return rangeOf(table).position(value); }
 
+double tableValue(const TransferTable& table, double position) { return rangeOf(table).value(position); }
+
 glm::dvec4 classify(const TransferTable& table, double value) {
     if (std::isnan(value)) return glm::dvec4(table.nan);
     const double position = tablePosition(table, value);

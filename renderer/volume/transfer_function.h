@@ -84,6 +84,9 @@ struct TransferTable {
 /// Position of a value over the table, as transferPosition.
 [[nodiscard]] double tablePosition(const TransferTable& table, double value);
 
+/// Inverse of tablePosition.
+[[nodiscard]] double tableValue(const TransferTable& table, double position);
+
 /// rgb and opacity per unit length at a value, linear between entries. What techniques draw, up to the
 /// distance of two entries. NaN gives `nan`.
 [[nodiscard]] glm::dvec4 classify(const TransferTable& table, double value);

@@ -132,6 +132,12 @@ void addPicture(std::vector<KeySpec>& keys) {
     const std::string group = "Picture";
     keys.push_back(number("sampling.distance", "voxels", 0.05, 64, 0.5, group,
                           "Distance of samples along a ray, or of slices, in voxels of the drawn level."));
+    keys.push_back(when(
+        choice("sampling.transfer", {"samples", "mean"}, "samples", group,
+               "What ray casting asks the transfer function for: its entries at the samples, or its mean "
+               "between the values at the ends of each stretch (pre-integrated), which does not miss sharp "
+               "peaks. Volumes that are blended with others or cut by a clip object are sampled."),
+        "technique", {"raycast"}));
     keys.push_back(
         choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,
                "Level of detail of the picture at rest: every voxel, or every second, fourth or eighth."));

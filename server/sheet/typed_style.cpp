@@ -76,6 +76,7 @@ constexpr Words6 kRangeModes{"auto", "own", "shared", "fixed", "percentile", "sy
 constexpr Words3 kScales{"linear", "log", "symlog"};
 constexpr Words4 kQualities{"full", "half", "quarter", "eighth"};
 constexpr Words3 kAnnotations{"none", "names", "all"};
+constexpr Words2 kTransferSampling{"samples", "mean"};
 constexpr Words2 kSwitch{"off", "on"};
 constexpr Words3 kBondReaches{"none", "inside", "across"};
 constexpr Words2 kClipUnits{"fraction", "world"};
@@ -239,6 +240,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.range.max = read.find<double>("range.max");
     style.range.scale = read.choice<ValueScale>("range.scale", kScales);
     style.sampleDistanceVoxels = read.get<double>("sampling.distance");
+    style.preIntegrated = read.choice<int>("sampling.transfer", kTransferSampling) == 1;
     style.quality = read.choice<Quality>("quality", kQualities);
     if (const auto level = read.find<std::int64_t>("level")) style.level = static_cast<int>(*level);
     style.background = read.get<Colour>("background");

@@ -222,6 +222,7 @@ struct TypedStyle {
     TransferStyle transfer;
     RangeStyle range;
     double sampleDistanceVoxels = 0.5; ///< voxels of the drawn level
+    bool preIntegrated = false;
     Quality quality = Quality::Full;
     std::optional<int> level; ///< of the live picture; not set: by policy
     Colour background;

@@ -42,6 +42,7 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
                 "f32 (u8)\n"
                 "  --technique T  vr, sr, vc, ie or all: what looks inside, with and without light, at 128 "
                 "and 256 samples\n"
+                "  --only TEXT  cases with this in their names\n"
                 "  --json       one JSON object on stdout (always so)\n",
                 usage.c_str());
             return std::nullopt;

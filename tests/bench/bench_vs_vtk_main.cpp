@@ -10,10 +10,18 @@
 #include "image/vtk_peer.h"
 #include "volume/memory_volume_provider.h"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace voxsheet::bench {
 namespace {
+
+/// What our tile has other than VTK's.
+struct OurWay {
+    std::string name;
+    std::function<TileSpec(TileSpec)> tile;
+};
 
 struct PeerTimes {
     std::vector<double> voxsheet;
@@ -22,11 +30,11 @@ struct PeerTimes {
 };
 
 PeerTimes drawInTurn(RenderThread& thread, VolumeScene& scene, Technique technique, image::VtkPeer& gpu,
-                     image::VtkPeer& cpu, int frames) {
+                     image::VtkPeer& cpu, int frames, const std::function<TileSpec(TileSpec)>& ours) {
     PeerTimes times;
     for (int frame = 0; frame < frames; ++frame) {
         const auto tile = scene.tile(technique, frame);
-        times.voxsheet.push_back(drawTile(thread, tile).wallMs);
+        times.voxsheet.push_back(drawTile(thread, ours(tile)).wallMs);
         (void)gpu.draw(tile);
         times.vtkGpu.push_back(gpu.lastMs());
         (void)cpu.draw(tile);
@@ -36,15 +44,16 @@ PeerTimes drawInTurn(RenderThread& thread, VolumeScene& scene, Technique techniq
 }
 
 std::string runCase(RenderThread& thread, VolumeScene& scene, Technique technique, image::VtkPeer& gpu,
-                    image::VtkPeer& cpu, int frames) {
-    const auto name = scene.name() + " " + fields::nameOf(technique);
+                    image::VtkPeer& cpu, int frames, const OurWay& way = {}) {
+    const auto name = scene.name() + " " + fields::nameOf(technique) + way.name;
     tellProgress(name);
     const auto first = scene.tile(technique, 0);
+    const auto our = [&](const TileSpec& tile) { return way.tile ? way.tile(tile) : tile; };
     const auto ours =
-        scene.distance(technique, pictureOf(drawTile(thread, first).tiles[0])); // compiles, uploads
+        scene.distance(technique, pictureOf(drawTile(thread, our(first)).tiles[0])); // compiles, uploads
     const auto theirs = scene.distance(technique, gpu.draw(first));
     const auto cpus = scene.distance(technique, cpu.draw(first));
-    const auto times = drawInTurn(thread, scene, technique, gpu, cpu, frames);
+    const auto times = drawInTurn(thread, scene, technique, gpu, cpu, frames, our);
     const double voxsheetMs = median(times.voxsheet);
     const double gpuMs = median(times.vtkGpu);
     const double cpuMs = median(times.vtkCpu);
@@ -61,10 +70,33 @@ std::string runCase(RenderThread& thread, VolumeScene& scene, Technique techniqu
                        {"vtk_gpu_p999", jsonNumber(theirs.p999)}});
 }
 
+constexpr double kGoodDecibels = 40.0;
+
+/// The longest distance of samples at which pre-integrated pictures are good, and at least as close to the
+/// integral as both of VTK's.
+double equalDistance(RenderThread& thread, VolumeScene& scene, image::VtkPeer& gpu, image::VtkPeer& cpu) {
+    const auto first = scene.tile(Technique::Raycast, 0);
+    const double least = std::max({kGoodDecibels, scene.distance(Technique::Raycast, gpu.draw(first)).psnr,
+                                   scene.distance(Technique::Raycast, cpu.draw(first)).psnr});
+    for (const double distance : {4.0, 2.8, 2.0, 1.4, 1.0, 0.7}) {
+        const auto tile = sampledBy(first, Classification::PreIntegrated, distance);
+        const auto picture = pictureOf(drawTile(thread, tile).tiles[0]);
+        if (scene.distance(Technique::Raycast, picture).psnr >= least) return distance;
+    }
+    return first.sampleDistanceVoxels;
+}
+
+const char* const kSheetName = "25 cells";
+
+bool isWanted(const VolumeBenchOptions& options, const std::string& name) {
+    return name.find(options.only) != std::string::npos;
+}
+
 std::vector<std::string> volumesAgainstVtk(const VolumeBenchOptions& options) {
     std::vector<std::string> cases;
-    for (const bool filled : {false, true}) {
-        VolumeScene scene(options, filled);
+    for (const auto material : {Material::Sparse, Material::Filled, Material::SharpPeaks}) {
+        VolumeScene scene(options, material);
+        if (!isWanted(options, scene.name())) continue;
         auto provider = std::make_shared<MemoryVolumeProvider>();
         provider->add(scene.sampled().meta, scene.sampled().arrays);
         RenderOptions renderOptions;
@@ -74,6 +106,12 @@ std::vector<std::string> volumesAgainstVtk(const VolumeBenchOptions& options) {
         image::VtkPeer cpu(scene.sampled(), image::VtkMapper::Cpu);
         for (const auto technique : {Technique::Raycast, Technique::Slices})
             cases.push_back(runCase(thread, scene, technique, gpu, cpu, options.frames));
+        if (material != Material::SharpPeaks) continue;
+        const double distance = equalDistance(thread, scene, gpu, cpu);
+        cases.push_back(runCase(thread, scene, Technique::Raycast, gpu, cpu, options.frames,
+                                {" pre-integrated, " + jsonNumber(distance) + " voxels", [&](TileSpec tile) {
+                                     return sampledBy(tile, Classification::PreIntegrated, distance);
+                                 }}));
     }
     return cases;
 }
@@ -90,7 +128,7 @@ std::string compareWithVtk(VolumeBenchOptions options) {
     std::vector<std::string> cases;
     if (options.techniques.empty()) {
         cases = volumesAgainstVtk(options);
-        cases.push_back(cellsAgainstVtk(options));
+        if (isWanted(options, kSheetName)) cases.push_back(cellsAgainstVtk(options));
         options.techniques = {"all"};
     }
     for (auto& one : insideAgainstVtk(options))

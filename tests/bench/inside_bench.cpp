@@ -7,8 +7,6 @@
 #include "volume/clip_shapes.h"
 #include "volume/memory_volume_provider.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -82,13 +80,6 @@ std::string sizeName(const VolumeBenchOptions& options, int samples) {
     const auto n = std::to_string(samples);
     const auto p = std::to_string(options.pixels);
     return n + "^3 " + scalarName(options.type) + " " + p + "x" + p + " ";
-}
-
-/// Of all threads of the process so far.
-double processorMs() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 /// Where samples would be taken were none skipped: one per pixel on a face, else along the kept part of each

@@ -5,6 +5,8 @@
 #include "fields/integrator.h"
 #include "volume/memory_volume_provider.h"
 
+#include <time.h>
+
 #include <algorithm>
 
 namespace voxsheet::bench {
@@ -19,20 +21,37 @@ int truthStride(const VolumeBenchOptions& options) { return std::max(1, options.
 
 fields::AnalyticField benchField() { return fields::gaussianSum(); }
 
+std::shared_ptr<const TransferTable> tableOf(Material material, const fields::AnalyticField& field) {
+    switch (material) {
+    case Material::Filled:
+        return fields::filledTable(field.low, field.high);
+    case Material::SharpPeaks:
+        return fields::peaksTable(field.low, field.high);
+    case Material::Sparse:
+        break;
+    }
+    return fields::sparseTable(field.low, field.high);
+}
+
+const char* nameOf(Material material) {
+    if (material == Material::SharpPeaks) return " sharp peaks";
+    return material == Material::Filled ? " filled" : " sparse";
+}
+
 } // namespace
 
-VolumeScene::VolumeScene(const VolumeBenchOptions& options, bool filled)
-    : options_(options), filled_(filled),
+VolumeScene::VolumeScene(const VolumeBenchOptions& options, Material material)
+    : options_(options), material_(material),
       sampled_(fields::sampleField(benchField(), fields::gridOf(fields::Geometry::Isotropic, options.samples),
                                    options.type, kDataset)) {
     const auto field = benchField();
-    table_ = filled ? fields::filledTable(field.low, field.high) : fields::sparseTable(field.low, field.high);
+    table_ = tableOf(material, field);
 }
 
 std::string VolumeScene::name() const {
     const auto n = std::to_string(options_.samples);
     const auto p = std::to_string(options_.pixels);
-    return n + "^3 " + scalarName(options_.type) + " " + p + "x" + p + (filled_ ? " filled" : " sparse");
+    return n + "^3 " + scalarName(options_.type) + " " + p + "x" + p + nameOf(material_);
 }
 
 TileSpec VolumeScene::tile(Technique technique, int frame) const {
@@ -84,6 +103,18 @@ FrameResult drawTile(RenderThread& thread, const TileSpec& tile) {
     return result;
 }
 
+TileSpec sampledBy(TileSpec tile, Classification classification, double distanceVoxels) {
+    tile.classification = classification;
+    tile.sampleDistanceVoxels = distanceVoxels;
+    return tile;
+}
+
+double processorMs() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 double median(std::vector<double> values) {
     if (values.empty()) throw InvalidInput("median", "there is no value");
     std::sort(values.begin(), values.end());
@@ -94,19 +125,21 @@ double median(std::vector<double> values) {
 namespace {
 
 VolumeBenchCase runCase(RenderThread& thread, VolumeScene& scene, const std::string& name,
-                        Technique technique, const VolumeBenchOptions& options) {
+                        const std::function<TileSpec(int frame)>& tile, const VolumeBenchOptions& options) {
     VolumeBenchCase result;
     result.name = name;
-    const auto first = scene.tile(technique, 0);
+    const auto first = tile(0);
     const auto picture = pictureOf(drawTile(thread, first).tiles[0]); // also compiles and uploads
-    const auto distance = scene.distance(technique, picture);
+    const auto distance = scene.distance(first.technique, picture);
     result.psnr = distance.psnr;
     result.p999 = distance.p999;
     const auto& grid = scene.sampled().meta.grid;
     result.samples = fields::pathVoxels(first, grid, grid.dims) / first.sampleDistanceVoxels;
     std::vector<double> times;
+    const double cpuBefore = processorMs();
     for (int frame = 0; frame < options.frames; ++frame)
-        times.push_back(drawTile(thread, scene.tile(technique, frame)).wallMs);
+        times.push_back(drawTile(thread, tile(frame)).wallMs);
+    result.cpuMs = (processorMs() - cpuBefore) / options.frames;
     result.ms = median(std::move(times));
     return result;
 }
@@ -114,6 +147,7 @@ VolumeBenchCase runCase(RenderThread& thread, VolumeScene& scene, const std::str
 std::string jsonOf(const VolumeBenchCase& one) {
     return jsonObject({{"name", jsonString(one.name)},
                        {"ms", jsonNumber(one.ms)},
+                       {"cpu_ms", jsonNumber(one.cpuMs)},
                        {"samples", jsonNumber(one.samples)},
                        {"psnr", jsonNumber(one.psnr)},
                        {"p999", jsonNumber(one.p999)}});
@@ -123,8 +157,9 @@ std::string jsonOf(const VolumeBenchCase& one) {
 
 std::string volumeBench(const VolumeBenchOptions& options,
                         const std::function<void(const std::string&)>& progress) {
-    VolumeScene sparse(options, false);
-    VolumeScene filled(options, true);
+    VolumeScene sparse(options, Material::Sparse);
+    VolumeScene filled(options, Material::Filled);
+    VolumeScene peaks(options, Material::SharpPeaks);
     auto provider = std::make_shared<MemoryVolumeProvider>();
     provider->add(sparse.sampled().meta, sparse.sampled().arrays);
     RenderOptions renderOptions;
@@ -135,8 +170,22 @@ std::string volumeBench(const VolumeBenchOptions& options,
         for (const auto technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
             const auto name = scene->name() + " " + fields::nameOf(technique);
             progress(name);
-            cases.push_back(jsonOf(runCase(thread, *scene, name, technique, options)));
+            const auto tile = [&](int frame) { return scene->tile(technique, frame); };
+            cases.push_back(jsonOf(runCase(thread, *scene, name, tile, options)));
         }
+    for (auto* scene : {&filled, &peaks})
+        for (const auto classification : {Classification::AtSamples, Classification::PreIntegrated})
+            for (const double distance : {0.5, 1.0, 2.0}) {
+                const auto name =
+                    scene->name() + " raycast " +
+                    (classification == Classification::AtSamples ? "at samples, " : "pre-integrated, ") +
+                    jsonNumber(distance) + " voxels";
+                progress(name);
+                const auto tile = [&](int frame) {
+                    return sampledBy(scene->tile(Technique::Raycast, frame), classification, distance);
+                };
+                cases.push_back(jsonOf(runCase(thread, *scene, name, tile, options)));
+            }
     return jsonObject({{"device", jsonString(thread.device().eglPlatform)},
                        {"renderer", jsonString(thread.device().renderer)},
                        {"cases", jsonArray(cases)}});

@@ -1,6 +1,6 @@
-// The volume rendering bench: one analytic volume, thin material everywhere ("filled") or only the top of its
-// range ("sparse"), a camera that goes round it; times from state to host pixels, and the pictures' distance
-// from the converged integral.
+// The volume rendering bench: one analytic volume, thin material everywhere ("filled"), only the top of its
+// range ("sparse"), or thin shells ("sharp peaks"), a camera that goes round it; times from state to host
+// pixels, and the pictures' distance from the converged integral.
 #pragma once
 
 #include "fields/picture.h"
@@ -31,16 +31,19 @@ struct VolumeBenchOptions {
 struct VolumeBenchCase {
     std::string name;
     double ms = 0.0;      ///< median, from state to host pixels
+    double cpuMs = 0.0;   ///< mean per frame, of all threads
     double samples = 0.0; ///< in the box at this distance, for the first view: before any is skipped
     double psnr = 0.0;    ///< dB, of the 8-bit picture of the first view against the converged integral, over
                           ///< about 64 x 64 pixels
     double p999 = 0.0;    ///< 99.9th percentile of its error
 };
 
+enum class Material { Sparse, Filled, SharpPeaks };
+
 /// A scene that is drawn by turns: the volume, its table and the view of a frame.
 class VolumeScene {
 public:
-    VolumeScene(const VolumeBenchOptions& options, bool filled);
+    VolumeScene(const VolumeBenchOptions& options, Material material);
 
     [[nodiscard]] const fields::SampledField& sampled() const { return sampled_; }
     [[nodiscard]] TileSpec tile(Technique technique, int frame) const;
@@ -51,7 +54,7 @@ public:
 
 private:
     VolumeBenchOptions options_;
-    bool filled_;
+    Material material_;
     fields::SampledField sampled_;
     std::shared_ptr<const TransferTable> table_;
     fields::Picture integral_;
@@ -62,10 +65,13 @@ private:
 [[nodiscard]] fields::Picture pictureOf(const TilePixels& pixels);
 /// Draws one tile and waits. Throws GpuError or the tile's error.
 [[nodiscard]] FrameResult drawTile(RenderThread& thread, const TileSpec& tile);
+[[nodiscard]] TileSpec sampledBy(TileSpec tile, Classification classification, double distanceVoxels);
+/// Processor time of all threads of the process so far.
+[[nodiscard]] double processorMs();
 [[nodiscard]] double median(std::vector<double> values);
 
 /// Every technique on both scenes, as the JSON object {"device": …, "renderer": …, "cases": [{"name", "ms",
-/// "samples", "psnr", "p999"}]}. `progress` is told the name of each case.
+/// "cpu_ms", "samples", "psnr", "p999"}]}. `progress` is told the name of each case.
 [[nodiscard]] std::string volumeBench(const VolumeBenchOptions& options,
                                       const std::function<void(const std::string&)>& progress);
 

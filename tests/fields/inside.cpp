@@ -1,6 +1,7 @@
 #include "fields/inside.h"
 
 #include "fields/index_slope.h"
+#include "stages/preintegration.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
@@ -79,6 +80,29 @@ double normalDepth(const RayTruth& ray, double depth) {
     return second < whole ? ray.range.begin + second * step : depth;
 }
 
+bool isWholeStretch(const RayTruth& ray, double begin) {
+    const double step = ray.tile.sampleDistanceVoxels / ray.voxelsPerDepth;
+    const double whole = std::floor((ray.range.end - ray.range.begin) / step);
+    return (begin - ray.range.begin) / step < whole - 0.5;
+}
+
+/// Mean per unit length over the values between two (stages/preintegration.h), by many of them.
+Matter meanMatter(const TransferTable& table, double from, double to) {
+    Matter mean;
+    const double first = tablePosition(table, from);
+    const double last = tablePosition(table, to);
+    if (std::isnan(first + last)) return mean;
+    const auto entries = static_cast<double>(table.entries.size());
+    const int count = std::clamp(static_cast<int>(2.0 * std::abs(last - first) * entries), 1, 8192);
+    for (int i = 0; i < count; ++i) {
+        const double weight = (i + 0.5) / count;
+        auto entry = classify(table, tableValue(table, first + weight * (last - first)));
+        entry.w = std::min(entry.w, 1.0 - std::exp2(-kLargestMeanExtinction));
+        mean.add(entry, glm::dvec3(entry), 1.0 / count, 1.0);
+    }
+    return mean;
+}
+
 /// The stretch [begin, end] of a volume, as far as it is kept, one sample in the middle of that.
 void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     if (ray.sources.clip && ray.tile.clip.object->binary) {
@@ -100,8 +124,16 @@ void addStretch(Light& light, const RayTruth& ray, double begin, double end) {
     }
     const double value = ray.value(depth);
     if (std::isnan(value)) return;
-    const auto entry = classify(*ray.tile.transfer, value);
     const double exponent = length / ray.tile.unitLengthWorld;
+    if (preIntegrates(ray.tile) && isWholeStretch(ray, begin)) {
+        const auto mean = meanMatter(*ray.tile.transfer, ray.value(begin), ray.value(end));
+        if (!(mean.extinction > 0.0)) return;
+        const auto normal = ray.sampleNormal(normalDepth(ray, depth));
+        light.add(ray.lit(mean.emission / mean.extinction, normal),
+                  1.0 - std::exp2(-mean.extinction * exponent));
+        return;
+    }
+    const auto entry = classify(*ray.tile.transfer, value);
     light.add(ray.lit(glm::dvec3(entry), ray.sampleNormal(normalDepth(ray, depth))),
               1.0 - std::pow(1.0 - entry.w, exponent));
 }

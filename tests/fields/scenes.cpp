@@ -85,6 +85,17 @@ std::shared_ptr<const TransferTable> sparseTable(double low, double high) {
     return buildTransferTable(function);
 }
 
+std::shared_ptr<const TransferTable> peaksTable(double low, double high) {
+    auto function = rainbow(low, high);
+    constexpr double halfWidth = 0.006;
+    for (const double peak : {0.2, 0.45, 0.7}) {
+        function.opacities.push_back({peak - halfWidth, 0.0});
+        function.opacities.push_back({peak, 0.6});
+        function.opacities.push_back({peak + halfWidth, 0.0});
+    }
+    return buildTransferTable(function);
+}
+
 CameraSpec cameraOf(const Grid& grid, Projection projection, double azimuthDegrees, double elevationDegrees) {
     const double azimuth = glm::radians(azimuthDegrees);
     const double elevation = glm::radians(elevationDegrees);

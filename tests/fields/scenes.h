@@ -23,6 +23,9 @@ enum class Geometry { Isotropic, Anisotropic, Sheared };
 /// Over [low, high]: only the top of the range can be seen.
 [[nodiscard]] std::shared_ptr<const TransferTable> sparseTable(double low, double high);
 
+/// Over [low, high]: nothing but three thin shells, whose opacity rises and falls within 1.2 % of the range.
+[[nodiscard]] std::shared_ptr<const TransferTable> peaksTable(double low, double high);
+
 /// Looks at the centre of the grid's box from an oblique direction; the box fills most of the picture.
 [[nodiscard]] CameraSpec cameraOf(const Grid& grid, Projection projection, double azimuthDegrees = 30.0,
                                   double elevationDegrees = 25.0);

@@ -148,6 +148,7 @@ protected:
         tile.shading = randomShading();
         if (GetParam() == Technique::Raycast && coin()) tile.layers = randomLayers(grid, trial);
         if (GetParam() == Technique::Isosurface) tile.isosurface = randomIsosurface(grid, trial);
+        if (trial % 3 == 1) tile.classification = Classification::PreIntegrated;
         return tile;
     }
 
@@ -171,6 +172,7 @@ inline std::string describe(const TileSpec& tile, const Grid& grid) {
     if (tile.technique == Technique::Isosurface)
         out << " surfaces " << tile.isosurface.surfaces.size() << (tile.isosurface.caps ? " caps" : "")
             << (tile.isosurface.colouredBy ? " coloured" : "");
+    if (preIntegrates(tile)) out << " pre-integrated";
     if (!tile.layers.volumes.empty()) out << " layers " << tile.layers.volumes.size();
     return out.str();
 }

@@ -18,10 +18,12 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const int samples = volumes.clipObject != nullptr ? std::min(4, longest) : longest;
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
     defines.emplace_back("PAIRS_SHARE_LIGHT", pairsShareLight(tile) ? "1" : "0");
+    defines.emplace_back("PRE_INTEGRATED", preIntegrates(tile) ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
     stages.bindFor(program, request);
     LayerStage::bind(program, tile, volume, volumes.layers, stages.classification);
+    if (preIntegrates(tile)) stages.classification.bindIntegrals(tile.transfer);
     if (stages.skipEmptySpace) {
         LayerStage::bindOccupied(program, tile, volume, volumes.layers, samples * tile.sampleDistanceVoxels,
                                  stages.emptySpace);

@@ -2,6 +2,7 @@
 //   CHUNK_SAMPLES  samples that one look-up of empty space answers for
 //   SKIP_EMPTY     1: stretches that cannot show anything are left out
 //   LAYERS         volumes blended with the drawn one
+//   PRE_INTEGRATED 1: whole stretches show the mean of the transfer function
 //   PAIRS_SHARE_LIGHT  1: two samples of whole stretches have one normal
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
@@ -12,6 +13,9 @@
 #include "stages/clip_object.glsl"
 #include "stages/shading.glsl"
 #include "stages/layers.glsl"
+#if PRE_INTEGRATED
+#include "stages/preintegration.glsl"
+#endif
 
 layout(binding = 2) uniform usampler3D occupiedCells;
 
@@ -69,6 +73,15 @@ bool cutNormalAt(Path path, float depth, bool nearObject, out vec3 normal) {
 }
 #endif
 
+#if SHADING && PRE_INTEGRATED
+vec3 litAt(Path path, float depth, vec3 rgb) {
+    vec3 normal;
+    bool behindCut = cutNormalAt(path, depth, false, normal);
+    if (!behindCut) normal = gradientNormal(path.ray.origin + depth * path.ray.direction);
+    return lit(rgb, normal, path.ray.toEye);
+}
+#endif
+
 // The sample at `depth` that stands for `length` of depth.
 void takeSample(inout Light light, Path path, float depth, float length, bool nearObject) {
     vec3 position = path.ray.origin + depth * path.ray.direction;
@@ -85,6 +98,24 @@ void takeSample(inout Light light, Path path, float depth, float length, bool ne
     add(light, entry, length * path.unitsPerDepth);
 }
 
+// What whole stretches show, one after the other: the one that begins at `depth`.
+#if PRE_INTEGRATED
+float stretchBegin(Path path, float depth) { return entryPosition(texelAt(path.ray.origin + depth * path.ray.direction)); }
+
+// `begin`: what stretchBegin() gives; becomes that of the next.
+vec4 stretchEntry(Path path, float depth, inout float begin) {
+    float end = stretchBegin(path, depth + path.spacing);
+    vec4 entry = meanEntry(begin, end);
+    begin = end;
+    return entry;
+}
+#else
+float stretchBegin(Path path, float depth) { return 0.0; }
+vec4 stretchEntry(Path path, float depth, inout float begin) {
+    return classifyTexel(texelAt(path.ray.origin + (depth + 0.5 * path.spacing) * path.ray.direction));
+}
+#endif
+
 #if PAIRS_SHARE_LIGHT
 void addThrough(inout Light light, vec3 rgb, float through) {
     light.colour += light.transmittance * (1.0 - through) * rgb;
@@ -92,15 +123,15 @@ void addThrough(inout Light light, vec3 rgb, float through) {
 }
 
 // Two samples that share the normal between them.
-void takeLitPair(inout Light light, Path path, float depth, bool first, bool second) {
-    vec4 entry = classifyTexel(texelAt(path.ray.origin + depth * path.ray.direction));
-    vec4 other = classifyTexel(texelAt(path.ray.origin + (depth + path.spacing) * path.ray.direction));
+void takeLitPair(inout Light light, Path path, float depth, bool first, bool second, inout float begin) {
+    vec4 entry = stretchEntry(path, depth, begin);
+    vec4 other = stretchEntry(path, depth + path.spacing, begin);
     float units = path.spacing * path.unitsPerDepth;
     float through = first ? exp2(-entry.a * units) : 1.0;
     float otherThrough = second ? exp2(-other.a * units) : 1.0;
     Reflection reflection = Reflection(1.0, 0.0);
     if (through * otherThrough < 1.0) {
-        float between = second ? depth + 0.5 * path.spacing : depth;
+        float between = depth + (second ? 1.0 : 0.5) * path.spacing;
         vec3 normal;
         bool behindCut = cutNormalAt(path, between, false, normal);
         if (!behindCut) normal = gradientNormal(path.ray.origin + between * path.ray.direction);
@@ -111,8 +142,21 @@ void takeLitPair(inout Light light, Path path, float depth, bool first, bool sec
 }
 
 void takeWhole(inout Light light, Path path, int first, int count) {
+    float begin = stretchBegin(path, path.span.begin + float(first) * path.spacing);
     for (int k = 0; k < CHUNK_SAMPLES; k += 2)
-        takeLitPair(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count, k + 1 < count);
+        takeLitPair(light, path, path.span.begin + float(first + k) * path.spacing, k < count, k + 1 < count, begin);
+}
+#elif PRE_INTEGRATED
+void takeWhole(inout Light light, Path path, int first, int count) {
+    float begin = stretchBegin(path, path.span.begin + float(first) * path.spacing);
+    for (int k = 0; k < CHUNK_SAMPLES; ++k) {
+        float depth = path.span.begin + float(first + k) * path.spacing;
+        vec4 entry = stretchEntry(path, depth, begin);
+#if SHADING
+        if (entry.a > 0.0) entry.rgb = litAt(path, depth + 0.5 * path.spacing, entry.rgb);
+#endif
+        add(light, entry, k < count ? path.spacing * path.unitsPerDepth : 0.0);
+    }
 }
 #else
 // `count` whole stretches; none or fewer than a chunk's where the path ends.

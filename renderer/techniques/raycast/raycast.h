@@ -11,6 +11,8 @@
 //
 // Light: where pairsShareLight(), samples 2k and 2k + 1 of the whole stretches have the normal half-way
 // between them; not in chunks that an object clips.
+// Pre-integrated (preIntegrates()), a whole stretch shows the mean over the values between its ends instead;
+// the rest has its sample.
 #pragma once
 
 #include "stages/shared_stages.h"

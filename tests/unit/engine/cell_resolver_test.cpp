@@ -187,6 +187,8 @@ TEST_F(CellResolver, LevelAndQualityTakeTheCoarserWithinWhatThereIs) {
     EXPECT_EQ(tile({{"sampling.distance", 0.5}}, 0).sampleDistanceVoxels, 1.0);
     EXPECT_NEAR(tile(nlohmann::json::object(), 0).unitLengthWorld, 1.0, 1e-12);
     EXPECT_EQ(tile({{"background", "transparent"}}, 0).background.w, 0.0F);
+    EXPECT_EQ(tile({{"sampling.transfer", "samples"}}, 0).classification, Classification::AtSamples);
+    EXPECT_EQ(tile({{"sampling.transfer", "mean"}}, 0).classification, Classification::PreIntegrated);
 }
 
 TEST_F(CellResolver, PeriodsMoveCameraAndClipsWithTheBoxAndTheShiftMovesNeither) {

@@ -65,6 +65,7 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
         [](TileSpec& s) { s.camera.projection = Projection::Orthographic; },
         [](TileSpec& s) { s.unitLengthWorld = 2; },
         [](TileSpec& s) { s.sampleDistanceVoxels = 0.25; },
+        [](TileSpec& s) { s.classification = Classification::PreIntegrated; },
         [](TileSpec& s) { s.background.w = 0.5F; },
         [](TileSpec& s) { s.sizePixels.y = 255; },
         [](TileSpec& s) { s.floatTexels = FloatTexels::Half; },
