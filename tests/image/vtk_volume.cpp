@@ -126,10 +126,8 @@ void VtkVolume::prepare(const TileSpec& tile) {
 
 /// Isosurfaces take their colour and opacity from the table.
 void VtkVolume::setBlend(const TileSpec& tile) {
-    if (tile.technique != Technique::Isosurface) {
-        mapper()->SetBlendModeToComposite();
-        return;
-    }
+    if (tile.technique == Technique::Mip) return mapper()->SetBlendModeToMaximumIntensity();
+    if (tile.technique != Technique::Isosurface) return mapper()->SetBlendModeToComposite();
     mapper()->SetBlendModeToIsoSurface();
     auto* values = volume_->GetProperty()->GetIsoSurfaceValues();
     const auto& surfaces = tile.isosurface.surfaces;
