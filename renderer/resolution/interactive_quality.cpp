@@ -1,10 +1,14 @@
 #include "resolution/interactive_quality.h"
 
+#include <algorithm>
+
 namespace voxsheet {
 
 namespace {
 
 constexpr int kBelievedFrames = 240;
+constexpr double kWorthwhile = 1.15; ///< a finer step that costs so little more is preferred
+constexpr double kKept = 1.3;        ///< and kept
 
 } // namespace
 
@@ -38,6 +42,19 @@ int InteractiveQuality::choose(double fullPixels) {
         ++step_;
     while (step_ > 0 && predictedMs(fullPixels, step_ - 1) < 0.75 * budgetMs_)
         --step_;
+    if (predictedMs(fullPixels, step_) > budgetMs_) step_ = finestOfTheCheap(fullPixels);
+    return step_;
+}
+
+int InteractiveQuality::finestOfTheCheap(double fullPixels) const {
+    double least = predictedMs(fullPixels, step_);
+    for (int step = 0; step < step_; ++step)
+        if (costs_.at(static_cast<std::size_t>(step)).msPerPixel > 0.0)
+            least = std::min(least, predictedMs(fullPixels, step));
+    for (int step = 0; step < step_; ++step) {
+        const double known = costs_.at(static_cast<std::size_t>(step)).msPerPixel * fullPixels;
+        if (known > 0.0 && known <= (step == last_ ? kKept : kWorthwhile) * least) return step;
+    }
     return step_;
 }
 

@@ -64,6 +64,36 @@ TEST(InteractiveQuality, SteadyTimesDoNotFlicker) {
     EXPECT_LE(changes, 1);
 }
 
+TEST(InteractiveQuality, CoarseStepsThatSaveNothingAreNotDrawn) {
+    // 64 tiny tiles: 150 ms of every frame go into tiles as such, 15 ms into pixels.
+    InteractiveQuality quality(50.0);
+    int step = quality.choose(200e3);
+    int coarse = 0;
+    int changes = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        const double noise = (frame % 2 == 0) ? 1.04 : 0.96;
+        quality.measured(200e3, step, (150.0 + drawn(15.0 / 200e3, 200e3, step)) * noise);
+        const int next = quality.choose(200e3);
+        if (frame > 10) {
+            coarse += next > 3;
+            changes += next != step;
+        }
+        step = next;
+    }
+    EXPECT_EQ(coarse, 0);
+    EXPECT_LE(changes, 2);
+}
+
+TEST(InteractiveQuality, CoarseStepsThatSaveMuchAreDrawnEvenBeyondTheBudget) {
+    InteractiveQuality quality(50.0);
+    int step = quality.choose(2000e3);
+    for (int frame = 0; frame < 30; ++frame) {
+        quality.measured(2000e3, step, drawn(3000.0 / 2000e3, 2000e3, step));
+        step = quality.choose(2000e3);
+    }
+    EXPECT_EQ(step, kQualityStepCount - 1);
+}
+
 TEST(InteractiveQuality, MorePixelsMeanACoarserStep) {
     InteractiveQuality quality(60.0);
     quality.measured(100e3, 0, 55.0);
