@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <memory>
 
 namespace voxsheet {
@@ -17,10 +18,11 @@ struct ResidentVolume {
     const gpu::Texture* texture = nullptr; ///< GL_TEXTURE_3D, one channel, normalised or float; or null
     double valueScale = 1.0; ///< value = valueScale * texel + valueOffset, slope and intercept included
     double valueOffset = 0.0;
-    std::shared_ptr<const HostTexels> host; ///< instead, for rays that the processor marches
-    /// In values. Keep the pointer, not its address, when caching what was derived from it: an evicted
-    /// volume's grid is freed, and another may take its address.
-    std::shared_ptr<const MinMaxGrid> minMax;
+    std::shared_ptr<const HostTexels> host;   ///< instead, for rays that the processor marches
+    std::shared_ptr<const MinMaxGrid> minMax; ///< in values
+    /// contentHash of minMax: what was derived from it is still good when the volume comes back after an
+    /// eviction.
+    std::uint64_t rangesHash = 0;
     std::shared_ptr<const DatasetMeta> meta;
     int field = 0;
     int step = 0;

@@ -157,6 +157,7 @@ bool VolumeUpload::advance(std::optional<gpu::Texture>& texture, SliceReader& re
             if (!arrived(minMax_)) return false;
             if (host_) host_->closeBorders();
             volume_.minMax = std::make_shared<const MinMaxGrid>(minMax_.get());
+            volume_.rangesHash = contentHash(*volume_.minMax);
             return true;
         }
         if (!arrived(reads_.front())) return false;

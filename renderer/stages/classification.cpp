@@ -10,7 +10,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedTables = 64;
+constexpr std::size_t kCachedTables = 512; ///< of 64 KiB each: one for each of many cells
 constexpr double kMaxExtinction = 4096.0;
 
 glm::vec4 shaderEntry(const glm::vec4& entry) {
@@ -77,9 +77,7 @@ namespace {
 template <typename Cache, typename MakeTexels>
 const gpu::Texture& tableTexture(Cache& cache, gpu::Context& context,
                                  const std::shared_ptr<const TransferTable>& table, MakeTexels makeTexels) {
-    const auto* texture = cache.find(
-        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
-    if (texture != nullptr) return *texture;
+    if (const auto* texture = madeOf(cache, table)) return *texture;
     const std::vector<glm::vec4> texels = makeTexels(*table);
     const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
     gpu::Texture fresh(context, GL_TEXTURE_1D, GL_RGBA32F, size);

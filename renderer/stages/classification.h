@@ -59,4 +59,13 @@ private:
     Textures integrals_;
 };
 
+/// What was made of a table, or of one that is equal; nullptr: nothing yet.
+template <typename Value>
+Value* madeOf(RecentCache<std::shared_ptr<const TransferTable>, Value>& cache,
+              const std::shared_ptr<const TransferTable>& table) {
+    using Key = std::shared_ptr<const TransferTable>;
+    if (auto* made = cache.find([&](const Key& key) { return key == table; })) return made;
+    return cache.find([&](const Key& key) { return *key == *table; });
+}
+
 } // namespace voxsheet

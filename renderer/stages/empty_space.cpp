@@ -7,7 +7,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedVolumes = 128;
+constexpr std::size_t kCachedBytes = std::size_t(96) << 20; ///< of 366 volumes of 256^3
 constexpr int kLongestChunk = 16;
 
 template <typename T>
@@ -62,16 +62,30 @@ int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
 }
 
 EmptySpaceStage::EmptySpaceStage(gpu::Context& context)
-    : context_(context), textures_(kCachedVolumes), hostCells_(kCachedVolumes) {}
+    : context_(context), textures_(kCachedBytes), hostCells_(kCachedBytes) {}
 
 bool EmptySpaceStage::Key::matches(const Key& other) const {
-    if (minMax != other.minMax || reachSamples != other.reachSamples || values != other.values) return false;
+    if (rangesHash != other.rangesHash || dims != other.dims || periodic != other.periodic) return false;
+    if (valueFromTexel != other.valueFromTexel) return false;
+    if (reachSamples != other.reachSamples || values != other.values) return false;
     return table == other.table || (table && other.table && *table == *other.table);
+}
+
+EmptySpaceStage::Key EmptySpaceStage::keyOf(const ResidentVolume& volume,
+                                            std::shared_ptr<const TransferTable> table,
+                                            std::vector<double> values, int reachSamples) {
+    return {volume.rangesHash,
+            volume.dims,
+            volume.meta->grid.periodic,
+            {volume.valueScale, volume.valueOffset},
+            std::move(table),
+            std::move(values),
+            reachSamples};
 }
 
 const gpu::Texture& EmptySpaceStage::occupied(const std::shared_ptr<const TransferTable>& table,
                                               const ResidentVolume& volume, int reachSamples) {
-    Key key{volume.minMax, table, {}, reachSamples};
+    auto key = keyOf(volume, table, {}, reachSamples);
     const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
     return insertDistances(std::move(key), volume, occupiedDistances(*table, volume, reachSamples));
@@ -85,7 +99,7 @@ void EmptySpaceStage::bindOccupied(const gpu::Program& program,
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                                   const ResidentVolume& volume) {
-    Key key{volume.minMax, nullptr, values, kShortReach};
+    auto key = keyOf(volume, nullptr, values, kShortReach);
     const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
     if (cells == nullptr) cells = &insertDistances(std::move(key), volume, crossedDistances(values, volume));
     bind(program, volume, *cells);
@@ -93,41 +107,51 @@ void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector
 
 const gpu::Texture& EmptySpaceStage::insertDistances(Key key, const ResidentVolume& volume,
                                                      const std::vector<std::uint8_t>& distances) {
-    return textures_.insert(std::move(key), cellTexture(context_, volume.dims, distances, GL_R8UI,
-                                                        GL_RED_INTEGER, GL_UNSIGNED_BYTE));
+    return textures_.insert(
+        std::move(key),
+        cellTexture(context_, volume.dims, distances, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE),
+        distances.size());
 }
 
 void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
-    Key key{volume.minMax, nullptr, {}, kLongReach};
+    auto key = keyOf(volume, nullptr, {}, kLongReach);
     const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
-    if (cells == nullptr)
-        cells = &textures_.insert(std::move(key), cellTexture(context_, volume.dims, largestTexels(volume),
-                                                              GL_R32F, GL_RED, GL_FLOAT));
+    if (cells == nullptr) {
+        const auto largest = largestTexels(volume);
+        cells = &textures_.insert(std::move(key),
+                                  cellTexture(context_, volume.dims, largest, GL_R32F, GL_RED, GL_FLOAT),
+                                  largest.size() * sizeof(float));
+    }
     bind(program, volume, *cells);
 }
 
 const EmptySpaceStage::HostCells&
 EmptySpaceStage::occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
                                 const ResidentVolume& volume, int reachSamples) {
-    Key key{volume.minMax, table, {}, reachSamples};
+    auto key = keyOf(volume, table, {}, reachSamples);
     const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    return hostCells_.insert(std::move(key), {readable(occupiedDistances(*table, volume, reachSamples)), {}});
+    return insertOnHost(std::move(key), {readable(occupiedDistances(*table, volume, reachSamples)), {}});
 }
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::crossedOnHost(const std::vector<double>& values,
                                                                  const ResidentVolume& volume) {
-    Key key{volume.minMax, nullptr, values, kShortReach};
+    auto key = keyOf(volume, nullptr, values, kShortReach);
     const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    return hostCells_.insert(std::move(key), {readable(crossedDistances(values, volume)), {}});
+    return insertOnHost(std::move(key), {readable(crossedDistances(values, volume)), {}});
 }
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::largestOnHost(const ResidentVolume& volume) {
-    Key key{volume.minMax, nullptr, {}, kLongReach};
+    auto key = keyOf(volume, nullptr, {}, kLongReach);
     const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    return hostCells_.insert(std::move(key), {{}, largestTexels(volume)});
+    return insertOnHost(std::move(key), {{}, largestTexels(volume)});
+}
+
+const EmptySpaceStage::HostCells& EmptySpaceStage::insertOnHost(Key key, HostCells cells) {
+    const std::size_t bytes = cells.marks.size() + cells.largest.size() * sizeof(float);
+    return hostCells_.insert(std::move(key), std::move(cells), bytes);
 }
 
 void EmptySpaceStage::bind(const gpu::Program& program, const ResidentVolume& volume,

@@ -1,4 +1,5 @@
-// Occupancy on the GPU: what empty_space.glsl reads. Rebuilt only when the volume or the table changes.
+// Occupancy on the GPU: what empty_space.glsl reads. Rebuilt only when the volume or the table changes, not
+// when an evicted volume comes back.
 #pragma once
 
 #include "gpu/program.h"
@@ -52,7 +53,10 @@ public:
 
 private:
     struct Key {
-        std::shared_ptr<const MinMaxGrid> minMax;
+        std::uint64_t rangesHash = 0;
+        glm::ivec3 dims{0};
+        glm::bvec3 periodic{false};
+        glm::dvec2 valueFromTexel{1.0, 0.0};
         std::shared_ptr<const TransferTable>
             table; ///< null: largest texels, or cells where `values` are crossed
         std::vector<double> values;
@@ -60,9 +64,12 @@ private:
 
         [[nodiscard]] bool matches(const Key& other) const;
     };
+    static Key keyOf(const ResidentVolume& volume, std::shared_ptr<const TransferTable> table,
+                     std::vector<double> values, int reachSamples);
 
     const gpu::Texture& insertDistances(Key key, const ResidentVolume& volume,
                                         const std::vector<std::uint8_t>& distances);
+    const HostCells& insertOnHost(Key key, HostCells cells);
     void bind(const gpu::Program& program, const ResidentVolume& volume, const gpu::Texture& cells) const;
 
     gpu::Context& context_;

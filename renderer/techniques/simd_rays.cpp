@@ -13,7 +13,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedTables = 64;
+constexpr std::size_t kCachedTables = 512; ///< of 64 KiB each: one for each of many cells
 constexpr int kRowsPerTask = 8;
 
 template <std::size_t n, typename Vector>
@@ -146,8 +146,7 @@ simd::Kernel kernelOf(Technique technique) {
 template <typename Cache, typename Make>
 const std::vector<glm::vec4>& cached(Cache& cache, const std::shared_ptr<const TransferTable>& table,
                                      Make make) {
-    const auto* entries = cache.find(
-        [&](const std::shared_ptr<const TransferTable>& key) { return key == table || *key == *table; });
+    const auto* entries = madeOf(cache, table);
     return entries != nullptr ? *entries : cache.insert(table, make(*table));
 }
 

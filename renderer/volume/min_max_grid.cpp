@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace voxsheet {
@@ -118,6 +120,16 @@ MinMaxGrid buildMinMaxGrid(const StoredArray& level, const glm::bvec3& periodic)
                        static_cast<std::size_t>(grid.bricks.z));
     visitScalar(level.type, [&]<typename T>() { buildRanges<T>(level, periodic, grid); });
     return grid;
+}
+
+std::uint64_t contentHash(const MinMaxGrid& grid) {
+    static_assert(sizeof(std::size_t) == sizeof(std::uint64_t));
+    const std::string_view bytes(reinterpret_cast<const char*>(grid.ranges.data()),
+                                 grid.ranges.size() * sizeof(MinMaxGrid::Range));
+    std::uint64_t hash = std::hash<std::string_view>{}(bytes);
+    for (int axis = 0; axis < 3; ++axis)
+        hash = hash * std::uint64_t{0x9E3779B97F4A7C15U} + static_cast<std::uint64_t>(grid.bricks[axis]);
+    return hash;
 }
 
 } // namespace voxsheet

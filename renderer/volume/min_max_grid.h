@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace voxsheet {
@@ -32,6 +33,9 @@ struct MinMaxGrid {
         return (dims + samples - 1) / samples;
     }
 };
+
+/// Of bricks and ranges: equal for equal grids, and only by chance (1 in 2^64) for others.
+[[nodiscard]] std::uint64_t contentHash(const MinMaxGrid& grid);
 
 /// The grid of one level. Ranges are of values; where a value has no float they are widened outwards, so that
 /// they still bound it. Infinite samples count (low or high is then infinite). Throws InvalidInput as

@@ -48,6 +48,22 @@ std::shared_ptr<const ValueSummary> LookCache::summary(const DatasetMeta& meta, 
     return summaries_.try_emplace(key, std::move(made)).first->second;
 }
 
+ResolvedTransfer LookCache::transfer(const sheet::ResolvedStyle& resolved, const ColourMapTable& maps,
+                                     const std::shared_ptr<const ValueSummary>& summary,
+                                     double boxPathUnitLengths) {
+    const auto& style = resolved.style;
+    TransferKey key{summary, boxPathUnitLengths, style.technique == sheet::Technique::Mip, style.range,
+                    style.transfer};
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto* found = transfers_.find([&](const TransferKey& other) { return other == key; }))
+            return *found;
+    }
+    auto made = resolveTransfer(resolved, maps, *summary, boxPathUnitLengths);
+    const std::lock_guard lock(mutex_);
+    return transfers_.insert(std::move(key), std::move(made));
+}
+
 std::shared_ptr<const TransferTable> LookCache::table(const TransferFunction& function) {
     const std::string key = keyOf(function);
     {

@@ -1,7 +1,9 @@
-// What is dear to compute and asked for with every frame: value summaries and transfer tables.
+// What is dear to compute and asked for with every frame: value summaries, transfer functions and tables.
 #pragma once
 
+#include "engine/cell_resolver.h"
 #include "engine/default_look.h"
+#include "stages/recent_cache.h"
 #include "volume/volume_provider.h"
 
 #include <list>
@@ -20,6 +22,10 @@ public:
 
     /// Throws as summariseField.
     [[nodiscard]] std::shared_ptr<const ValueSummary> summary(const DatasetMeta& meta, int field, int step);
+    /// As resolveTransfer, and throws as it; `maps` is the same table with every call.
+    [[nodiscard]] ResolvedTransfer transfer(const sheet::ResolvedStyle& resolved, const ColourMapTable& maps,
+                                            const std::shared_ptr<const ValueSummary>& summary,
+                                            double boxPathUnitLengths);
     /// Throws as buildTransferTable.
     [[nodiscard]] std::shared_ptr<const TransferTable> table(const TransferFunction& function);
 
@@ -27,6 +33,15 @@ private:
     static constexpr std::size_t kTables = 512; ///< of 64 KiB each
 
     using SummaryKey = std::tuple<std::string, int, int>;
+    /// All that resolveTransfer looks at.
+    struct TransferKey {
+        std::shared_ptr<const ValueSummary> summary;
+        double boxPathUnitLengths = 0.0;
+        bool projects = false; ///< technique mip
+        sheet::RangeStyle range;
+        sheet::TransferStyle transfer;
+        bool operator==(const TransferKey&) const = default;
+    };
     struct Table {
         std::string key;
         std::shared_ptr<const TransferTable> table;
@@ -34,6 +49,7 @@ private:
     std::shared_ptr<const VolumeProvider> volumes_;
     std::mutex mutex_;
     std::map<SummaryKey, std::shared_ptr<const ValueSummary>> summaries_;
+    RecentCache<TransferKey, ResolvedTransfer> transfers_{kTables};
     std::list<Table> tables_; ///< most recent first
     std::map<std::string, std::list<Table>::iterator> tableByKey_;
 };

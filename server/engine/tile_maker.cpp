@@ -71,7 +71,7 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     const double path = boxPathUnitLengths(look.meta->grid);
     const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
                                           : cache_.summary(*look.meta, look.shown.field, look.shown.step);
-    look.transfer = resolveTransfer(look.resolved, maps_, *summary, path);
+    look.transfer = cache_.transfer(look.resolved, maps_, summary, path);
     if (style.labels.show) addLabels(look);
     if (style.technique == sheet::Technique::Isosurface) {
         sheet::IsosurfaceStyle surfaces = style.isosurface;
@@ -126,7 +126,7 @@ void TileMaker::findColours(CellLook& look, const NamingCell& from) {
     sheet::ResolvedStyle own = look.resolved;
     own.style.range = {};
     own.style.range.scale = style.range.scale;
-    by.transfer = resolveTransfer(own, maps_, *cache_.summary(*by.meta, by.shown.field, by.shown.step),
+    by.transfer = cache_.transfer(own, maps_, cache_.summary(*by.meta, by.shown.field, by.shown.step),
                                   boxPathUnitLengths(by.meta->grid));
     look.colouredBy = std::move(by);
 }
@@ -174,7 +174,7 @@ std::optional<LayerLook> TileMaker::layerLook(CellLook& look, const sheet::Volum
     } else {
         const sheet::ResolvedStyle initial = sheet::defaultStyle(keys_);
         layer.transfer =
-            resolveTransfer(initial, maps_, *cache_.summary(*layer.meta, layer.shown.field, layer.shown.step),
+            cache_.transfer(initial, maps_, cache_.summary(*layer.meta, layer.shown.field, layer.shown.step),
                             boxPathUnitLengths(layer.meta->grid));
         style = initial.style;
     }
@@ -204,7 +204,7 @@ void TileMaker::findOverlay(CellLook& look, const NamingCell& from,
         if (overlay.min || overlay.max)
             own.style.range = {sheet::RangeMode::Fixed, overlay.min, overlay.max, ValueScale::Linear};
         layer->transfer =
-            resolveTransfer(own, maps_, *cache_.summary(*layer->meta, layer->shown.field, layer->shown.step),
+            cache_.transfer(own, maps_, cache_.summary(*layer->meta, layer->shown.field, layer->shown.step),
                             boxPathUnitLengths(layer->meta->grid));
         layer->transfer.function.opacities = {{0.0, 1.0}};
     }
