@@ -135,6 +135,18 @@ Crystal crystalFromJson(const json& j) {
     return crystal;
 }
 
+json labelToJson(const LabelMeta& label) {
+    json j{{"value", label.value}, {"name", label.name}};
+    if (label.rgb) j["rgb"] = vectorToJson(*label.rgb, "colour of a label");
+    return j;
+}
+
+LabelMeta labelFromJson(const json& j) {
+    LabelMeta label{j.at("value").get<std::int64_t>(), j.at("name").get<std::string>(), std::nullopt};
+    if (j.contains("rgb")) label.rgb = vectorFromJson(j.at("rgb"));
+    return label;
+}
+
 DatasetMeta parseMeta(const json& j) {
     DatasetMeta meta;
     meta.sourcePath = j.at("source_path").get<std::string>();
@@ -148,6 +160,9 @@ DatasetMeta parseMeta(const json& j) {
     meta.times = j.at("times").get<std::vector<double>>();
     meta.notes = j.at("notes").get<std::vector<std::string>>();
     if (j.contains("crystal")) meta.crystal = crystalFromJson(j.at("crystal"));
+    if (j.contains("labels"))
+        for (const auto& label : j.at("labels"))
+            meta.labels.push_back(labelFromJson(label));
     if (meta.fields.empty() || meta.times.empty())
         throw InvalidInput("dataset", "it has no field or no time step");
     return meta;
@@ -171,6 +186,8 @@ nlohmann::json metaToJson(const DatasetMeta& meta) {
            {"times", meta.times},
            {"notes", meta.notes}};
     if (meta.crystal) j["crystal"] = crystalToJson(*meta.crystal);
+    for (const auto& label : meta.labels)
+        j["labels"].push_back(labelToJson(label));
     return j;
 }
 

@@ -54,6 +54,13 @@ struct Crystal {
     std::string comment;
 };
 
+/// What a file calls one value of a label map.
+struct LabelMeta {
+    std::int64_t value = 0;
+    std::string name;              ///< may be empty
+    std::optional<glm::dvec3> rgb; ///< display sRGB, [0, 1]
+};
+
 struct DatasetMeta {
     std::string key;        ///< folder in the volume store; unique
     std::string sourcePath; ///< as opened
@@ -65,6 +72,7 @@ struct DatasetMeta {
     std::vector<FieldMeta> fields;           ///< at least one
     std::vector<double> times{0.0};          ///< one per time step
     std::optional<Crystal> crystal;
+    std::vector<LabelMeta> labels;  ///< that the file names, by value, each once; none for most
     std::vector<std::string> notes; ///< what the importer did that a user should know, one sentence each
 
     [[nodiscard]] int stepCount() const { return static_cast<int>(times.size()); }

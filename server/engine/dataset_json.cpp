@@ -71,6 +71,15 @@ void addCrystal(json& result, const Crystal& crystal) {
     result["comment"] = crystal.comment;
 }
 
+json labelsJson(const std::vector<LabelMeta>& labels) {
+    json list = json::array();
+    for (const auto& label : labels)
+        list.push_back({{"value", label.value},
+                        {"name", label.name},
+                        {"rgb", label.rgb ? vectorJson(*label.rgb) : json(nullptr)}});
+    return list;
+}
+
 } // namespace
 
 json describeDataset(const DatasetMeta& meta) {
@@ -92,6 +101,7 @@ json describeDataset(const DatasetMeta& meta) {
     for (const auto& field : meta.fields)
         result["fields"].push_back(fieldJson(field));
     if (meta.crystal) addCrystal(result, *meta.crystal);
+    if (!meta.labels.empty()) result["labels"] = labelsJson(meta.labels);
     return result;
 }
 

@@ -56,6 +56,21 @@ std::set<std::int64_t> presentValues(const FieldStep& data) {
 
 glm::dvec3 rgbOf(const sheet::Colour& colour) { return {colour.red(), colour.green(), colour.blue()}; }
 
+/// What the style says, over what the file says.
+std::map<std::int64_t, LabelMeta> namedLabels(const sheet::LabelsStyle& style,
+                                              const std::vector<LabelMeta>& own) {
+    std::map<std::int64_t, LabelMeta> names;
+    for (const auto& label : own)
+        if (!label.name.empty() || label.rgb) names.emplace(label.value, label);
+    if (style.names.empty()) return names;
+    for (const auto& [value, said] : sheet::parseLabelNames(style.names)) {
+        auto& label = names[value];
+        if (!said.name.empty()) label.name = said.name;
+        if (said.colour) label.rgb = rgbOf(*said.colour);
+    }
+    return names;
+}
+
 } // namespace
 
 glm::dvec3 labelColour(std::int64_t value) {
@@ -75,8 +90,8 @@ std::string LabelTable::nameOf(double value) const {
     return std::to_string(whole);
 }
 
-LabelTable makeLabelTable(const sheet::LabelsStyle& style, const FieldMeta& field, int step, double opacity,
-                          const std::string& key) {
+LabelTable makeLabelTable(const sheet::LabelsStyle& style, const std::vector<LabelMeta>& own,
+                          const FieldMeta& field, int step, double opacity, const std::string& key) {
     if (!holdsWholeNumbers(field))
         throw InvalidInput(key, "labels are whole numbers, and the values here are not stored as such",
                            "choose a volume of an integer type without a slope, or switch labels off")
@@ -91,15 +106,14 @@ LabelTable makeLabelTable(const sheet::LabelsStyle& style, const FieldMeta& fiel
                             "renumber them")
             .withField(key);
 
-    const auto names = style.names.empty() ? std::map<std::int64_t, sheet::LabelName>{}
-                                           : sheet::parseLabelNames(style.names);
+    const auto names = namedLabels(style, own);
     const auto labelOf = [&](std::int64_t value) {
         const auto named = names.find(value);
         const bool known = named != names.end();
         Label label;
         label.value = value;
         label.name = known && !named->second.name.empty() ? named->second.name : std::to_string(value);
-        label.rgb = known && named->second.colour ? rgbOf(*named->second.colour) : labelColour(value);
+        label.rgb = known && named->second.rgb ? *named->second.rgb : labelColour(value);
         label.hidden = style.hidden.contains(value) || (value == 0 && !known);
         return label;
     };

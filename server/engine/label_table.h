@@ -40,10 +40,13 @@ struct LabelTable {
 
 inline constexpr std::int64_t kMaxLabelSpan = 16000; ///< a row of a texture holds them
 
+/// Names and colours come from the style; where it says nothing of a value, from the file.
+/// \param own  the dataset's labels
 /// \param opacity  of what is shown, per unit length
 /// Throws InvalidInput (field `key`) if the field's samples are not whole numbers, LimitExceeded if they span
 /// more than kMaxLabelSpan, InvalidInput (field labels.names) as parseLabelNames.
-[[nodiscard]] LabelTable makeLabelTable(const sheet::LabelsStyle& style, const FieldMeta& field, int step,
-                                        double opacity, const std::string& key);
+[[nodiscard]] LabelTable makeLabelTable(const sheet::LabelsStyle& style, const std::vector<LabelMeta>& own,
+                                        const FieldMeta& field, int step, double opacity,
+                                        const std::string& key);
 
 } // namespace voxsheet::engine

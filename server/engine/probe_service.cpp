@@ -44,7 +44,8 @@ std::vector<ProbeValue> ProbeService::atWorld(const sheet::Workbook& workbook, s
             if (style.labels.show && probe.value) {
                 const FieldMeta& field = content.meta->fields[static_cast<std::size_t>(shown.field)];
                 probe.label =
-                    makeLabelTable(style.labels, field, shown.step, 1.0, "labels.show").nameOf(*probe.value);
+                    makeLabelTable(style.labels, content.meta->labels, field, shown.step, 1.0, "labels.show")
+                        .nameOf(*probe.value);
                 probe.interpolated = probe.value;
             }
             const bool fused = style.technique == sheet::Technique::Raycast && !style.layers.volumes.empty();

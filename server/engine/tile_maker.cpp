@@ -96,7 +96,8 @@ void TileMaker::addLabels(CellLook& look) const {
                            "set technique to plane, raycast, slices or surface, or labels.show to off")
             .withField("labels.show");
     const FieldMeta& field = look.meta->fields.at(static_cast<std::size_t>(look.shown.field));
-    look.labels = makeLabelTable(style.labels, field, look.shown.step, style.labels.opacity, "labels.show");
+    look.labels = makeLabelTable(style.labels, look.meta->labels, field, look.shown.step,
+                                 style.labels.opacity, "labels.show");
 }
 
 void TileMaker::findClipObject(CellLook& look, const NamingCell& from) {
@@ -196,8 +197,8 @@ void TileMaker::findOverlay(CellLook& look, const NamingCell& from,
     layer->weight = overlay.opacity;
     layer->threshold = overlay.threshold;
     if (overlay.map == "labels") {
-        layer->labels =
-            makeLabelTable(look.resolved.style.labels, field, layer->shown.step, 1.0, "overlay.map");
+        layer->labels = makeLabelTable(look.resolved.style.labels, layer->meta->labels, field,
+                                       layer->shown.step, 1.0, "overlay.map");
     } else if (!layer->labels) {
         sheet::ResolvedStyle own = sheet::defaultStyle(keys_);
         own.style.transfer.map = overlay.map;

@@ -63,8 +63,12 @@ private:
         if (line[0] == '#') return;
         const auto colon = line.find(':');
         if (colon == std::string_view::npos) fail("the header line '" + printable(line) + "' is no field");
-        if (colon + 1 < line.size() && line[colon + 1] == '=')
-            return; // a key/value pair: for people and other programs
+        if (colon + 1 < line.size() && line[colon + 1] == '=') {
+            // A key/value pair: for people and other programs, but names of segments are for all.
+            if (line.starts_with("Segment"))
+                header_.keyValues.emplace(line.substr(0, colon), line.substr(colon + 2));
+            return;
+        }
         auto field = lowerCase(line.substr(0, colon));
         std::erase(field, ' ');
         const auto value = trimmed(line.substr(colon + 1));

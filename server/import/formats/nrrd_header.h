@@ -40,8 +40,9 @@ struct NrrdHeader {
     glm::dvec3 spaceOrigin{0.0};
     bool hasDirections = false;
     std::string sampleUnit;
-    std::vector<std::string> dataFiles; ///< as named; empty: the voxels follow the header
-    std::uint64_t dataOffset = 0;       ///< of an attached header, after its blank line
+    std::vector<std::string> dataFiles;           ///< as named; empty: the voxels follow the header
+    std::map<std::string, std::string> keyValues; ///< free pairs (`KEY:=VALUE`) of segments, as written
+    std::uint64_t dataOffset = 0;                 ///< of an attached header, after its blank line
 };
 
 /// Throws InvalidInput or Unsupported (subject: the file's name).

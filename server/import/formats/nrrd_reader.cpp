@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "import/formats/field_names.h"
+#include "import/formats/label_names.h"
 #include "import/formats/nrrd_axes.h"
 #include "import/formats/number_text.h"
 #include "import/formats/voxel_plan.h"
@@ -135,6 +136,7 @@ SourceHeader NrrdReader::readHeader(const std::filesystem::path& path, const Imp
                                                : std::vector<std::string>{});
     for (auto& field : meta.fields)
         field.unit = header.sampleUnit;
+    meta.labels = segmentLabels(header.keyValues, meta.notes);
     validateGrid(meta.grid);
 
     addSegments(file, header, voxelBytes, source, *plan);

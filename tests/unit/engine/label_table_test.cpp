@@ -27,8 +27,9 @@ FieldMeta fieldOf(const std::map<std::int64_t, std::uint64_t>& counted) {
     return field;
 }
 
-LabelTable tableOf(const sheet::LabelsStyle& style, const FieldMeta& field, double opacity = 1.0) {
-    return makeLabelTable(style, field, 0, opacity, "labels.show");
+LabelTable tableOf(const sheet::LabelsStyle& style, const FieldMeta& field, double opacity = 1.0,
+                   const std::vector<LabelMeta>& own = {}) {
+    return makeLabelTable(style, own, field, 0, opacity, "labels.show");
 }
 
 TEST(LabelTable, EveryWholeNumberHasAnEntryOfItsOwn) {
@@ -64,6 +65,23 @@ TEST(LabelTable, ANamedBackgroundIsSeen) {
     const auto table = tableOf(style, fieldOf({{0, 1}, {1, 1}}));
     EXPECT_EQ(table.labels.front().name, "air");
     EXPECT_EQ(classify(*table.table, 0.0).w, 1.0);
+}
+
+TEST(LabelTable, TheFilesNamesHoldWhereTheStyleSaysNothing) {
+    const std::vector<LabelMeta> own{{0, "", std::nullopt},
+                                     {1, "liver", glm::dvec3(1, 0, 0)},
+                                     {2, "spleen", glm::dvec3(0, 1, 0)},
+                                     {3, "gall", std::nullopt}};
+    sheet::LabelsStyle style;
+    style.names = "1: Leber; 2 #0000ff";
+    const auto table = tableOf(style, fieldOf({{0, 5}, {1, 3}, {2, 1}, {3, 1}, {4, 1}}), 1.0, own);
+    EXPECT_EQ(table.nameOf(1.0), "Leber");
+    EXPECT_EQ(table.nameOf(2.0), "spleen");
+    EXPECT_EQ(table.nameOf(3.0), "gall");
+    EXPECT_EQ(table.nameOf(4.0), "4");
+    EXPECT_EQ(glm::vec3(classify(*table.table, 1.0)), glm::vec3(1, 0, 0)) << "the file's colour";
+    EXPECT_EQ(glm::vec3(classify(*table.table, 2.0)), glm::vec3(0, 0, 1)) << "the style's colour";
+    EXPECT_EQ(classify(*table.table, 0.0).w, 0.0) << "an entry without a name and colour names nothing";
 }
 
 TEST(LabelTable, ColoursOfNeighboursAreFarApartAndAlwaysTheSame) {

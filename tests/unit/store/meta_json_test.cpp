@@ -23,6 +23,7 @@ DatasetMeta fullMeta() {
     meta.notes = {"a note", "another"};
     meta.crystal =
         Crystal{glm::dmat3(4.775, 0, 0, 0, 4.929, 0, 0.1, 0, 6.897), {{14, {0.5, 0.25, 1.0}}}, "MgSiO3"};
+    meta.labels = {{-1, "", glm::dvec3(0.25, 0.5, 1.0)}, {3, "left kidney", std::nullopt}};
     for (auto& field : meta.fields)
         for (std::size_t s = 0; s < meta.times.size(); ++s) {
             FieldStep step;
@@ -47,6 +48,11 @@ TEST(MetaJson, RoundTripIsExact) {
     ASSERT_TRUE(back.crystal.has_value());
     EXPECT_EQ(back.crystal->lattice, meta.crystal->lattice);
     EXPECT_EQ(back.crystal->atoms[0].positionWorld, meta.crystal->atoms[0].positionWorld);
+    ASSERT_EQ(back.labels.size(), 2U);
+    EXPECT_EQ(back.labels[0].value, -1);
+    EXPECT_EQ(back.labels[0].rgb, glm::dvec3(0.25, 0.5, 1.0));
+    EXPECT_EQ(back.labels[1].name, "left kidney");
+    EXPECT_FALSE(back.labels[1].rgb);
     ASSERT_EQ(back.fields.size(), 2U);
     EXPECT_EQ(back.fields[1].steps[2].histogram.counts, meta.fields[1].steps[2].histogram.counts);
     EXPECT_EQ(back.fields[1].steps[2].statistics.standardDeviation, 0.7);
