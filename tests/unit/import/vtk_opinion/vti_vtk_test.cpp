@@ -1,0 +1,60 @@
+// Images by VTK's own writer, with every compressor and way to hold the data.
+#include "../vtk_fixture.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkXMLImageDataWriter.h>
+
+namespace voxsheet::import::testing {
+namespace {
+
+using VtiByVtk = FormatsTest;
+
+TEST_F(VtiByVtk, EveryCompressorAndModeGivesTheSameVolume) {
+    const glm::ivec3 dims{17, 9, 33};
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(dims.x, dims.y, dims.z);
+    image->SetSpacing(0.5, 2.0, 3.0);
+    image->SetOrigin(-1.0, 4.0, 7.0);
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("density");
+    std::vector<double> values;
+    for (int i = 0; i < dims.x * dims.y * dims.z; ++i) {
+        values.push_back(std::sin(0.37 * i) + 1e-3 * (i % 7));
+        array->InsertNextValue(values.back());
+    }
+    image->GetPointData()->SetScalars(array);
+
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writer->SetInputData(image);
+    writer->SetBlockSize(1024); // several blocks
+    using Writer = vtkXMLWriter;
+    for (const int compressor : {Writer::NONE, Writer::ZLIB, Writer::LZ4, Writer::LZMA})
+        for (const int mode : {Writer::Binary, Writer::Appended})
+            for (const bool base64 : {false, true})
+                for (const bool wide : {false, true}) {
+                    const auto file = folder_ / "a.vti";
+                    writer->SetFileName(file.c_str());
+                    writer->SetCompressorType(compressor);
+                    writer->SetDataMode(mode);
+                    writer->SetEncodeAppendedData(base64);
+                    if (wide)
+                        writer->SetHeaderTypeToUInt64();
+                    else
+                        writer->SetHeaderTypeToUInt32();
+                    ASSERT_EQ(writer->Write(), 1);
+                    SCOPED_TRACE("compressor " + std::to_string(compressor) + ", mode " +
+                                 std::to_string(mode) + (base64 ? ", base64" : "") +
+                                 (wide ? ", 64 bit" : ""));
+                    const auto loaded = loadAny(file);
+                    EXPECT_EQ(loaded.meta().grid.dims, dims);
+                    EXPECT_EQ(spacingWorld(loaded.meta().grid), glm::dvec3(0.5, 2.0, 3.0));
+                    EXPECT_EQ(loaded.meta().fields[0].name, "density");
+                    EXPECT_EQ(loaded.values<double>(), values);
+                }
+}
+
+} // namespace
+} // namespace voxsheet::import::testing
