@@ -161,7 +161,7 @@ DatasetMeta parseMeta(const json& j) {
     meta.notes = j.at("notes").get<std::vector<std::string>>();
     if (j.contains("crystal")) meta.crystal = crystalFromJson(j.at("crystal"));
     if (j.contains("labels"))
-        for (const auto& label : j.at("labels"))
+        for (const auto& label : j.at("labels").get<json::array_t>()) // throws for what is no list
             meta.labels.push_back(labelFromJson(label));
     if (meta.fields.empty() || meta.times.empty())
         throw InvalidInput("dataset", "it has no field or no time step");
