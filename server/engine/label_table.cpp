@@ -37,34 +37,46 @@ bool holdsWholeNumbers(const FieldMeta& field) {
            field.valueOffset == std::round(field.valueOffset);
 }
 
+/// Whether some sample may have the value: its bin of the histogram is not empty.
+bool mayBePresent(const FieldStep& data, std::int64_t value) {
+    const Histogram& histogram = data.histogram;
+    const auto wanted = static_cast<double>(value);
+    if (wanted < data.statistics.min || wanted > data.statistics.max) return false;
+    const auto bins = static_cast<double>(histogram.counts.size());
+    const double width = histogram.high - histogram.low;
+    const double position = width > 0.0 ? (wanted - histogram.low) / width : 0.0;
+    return histogram.counts[static_cast<std::size_t>(std::clamp(position * bins, 0.0, bins - 1.0))] > 0;
+}
+
 /// The values that some sample has; empty where bins of the histogram hold several numbers.
 std::set<std::int64_t> presentValues(const FieldStep& data) {
-    const Histogram& histogram = data.histogram;
-    const auto bins = static_cast<double>(histogram.counts.size());
     const auto low = static_cast<std::int64_t>(std::llround(data.statistics.min));
     const auto high = static_cast<std::int64_t>(std::llround(data.statistics.max));
     std::set<std::int64_t> values;
-    if (static_cast<double>(high - low) >= bins) return values;
-    for (std::int64_t value = low; value <= high; ++value) {
-        const double width = histogram.high - histogram.low;
-        const double position = width > 0.0 ? (static_cast<double>(value) - histogram.low) / width : 0.0;
-        const auto bin = static_cast<std::size_t>(std::clamp(position * bins, 0.0, bins - 1.0));
-        if (histogram.counts[bin] > 0) values.insert(value);
-    }
+    if (static_cast<std::size_t>(high - low) >= data.histogram.counts.size()) return values;
+    for (std::int64_t value = low; value <= high; ++value)
+        if (mayBePresent(data, value)) values.insert(value);
     return values;
 }
 
 glm::dvec3 rgbOf(const sheet::Colour& colour) { return {colour.red(), colour.green(), colour.blue()}; }
 
+struct NamedLabel {
+    std::string name;
+    std::optional<glm::dvec3> rgb;
+    bool byStyle = false; ///< at least in part
+};
+
 /// What the style says, over what the file says.
-std::map<std::int64_t, LabelMeta> namedLabels(const sheet::LabelsStyle& style,
-                                              const std::vector<LabelMeta>& own) {
-    std::map<std::int64_t, LabelMeta> names;
+std::map<std::int64_t, NamedLabel> namedLabels(const sheet::LabelsStyle& style,
+                                               const std::vector<LabelMeta>& own) {
+    std::map<std::int64_t, NamedLabel> names;
     for (const auto& label : own)
-        if (!label.name.empty() || label.rgb) names.emplace(label.value, label);
+        names.emplace(label.value, NamedLabel{label.name, label.rgb, false});
     if (style.names.empty()) return names;
     for (const auto& [value, said] : sheet::parseLabelNames(style.names)) {
         auto& label = names[value];
+        label.byStyle = true;
         if (!said.name.empty()) label.name = said.name;
         if (said.colour) label.rgb = rgbOf(*said.colour);
     }
@@ -114,15 +126,17 @@ LabelTable makeLabelTable(const sheet::LabelsStyle& style, const std::vector<Lab
         label.value = value;
         label.name = known && !named->second.name.empty() ? named->second.name : std::to_string(value);
         label.rgb = known && named->second.rgb ? *named->second.rgb : labelColour(value);
-        label.hidden = style.hidden.contains(value) || (value == 0 && !known);
+        // Tables of files name the background, too.
+        const bool background = value == 0 && !(known && named->second.byStyle);
+        label.hidden = style.hidden.contains(value) || background;
         return label;
     };
 
     LabelTable result;
     auto listed = presentValues(data);
     for (const auto& [value, name] : names)
-        listed.insert(value);
-    if (!names.contains(0)) listed.erase(0);
+        if (name.byStyle || mayBePresent(data, value)) listed.insert(value);
+    if (!names.contains(0) || !names.at(0).byStyle) listed.erase(0);
     for (const std::int64_t value : listed)
         result.labels.push_back(labelOf(value));
 

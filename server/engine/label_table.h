@@ -23,8 +23,8 @@ struct Label {
 
 struct LabelTable {
     /// For a legend, by value: the values that the data have, where these are told apart by the histogram
-    /// (255 or fewer between the smallest and the largest), and those with a name. Without an unnamed 0, the
-    /// background.
+    /// (255 or fewer between the smallest and the largest), those that the style names, and those that the
+    /// file names and the data may have. Without 0, the background, unless the style names it.
     std::vector<Label> labels;
     /// One entry for each whole number over the data's range; hidden ones have the opacity 0, and so have
     /// values outside.

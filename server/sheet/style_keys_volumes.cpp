@@ -17,7 +17,7 @@ void addLabelKeys(std::vector<KeySpec>& keys) {
         choice("labels.show", {"off", "on"}, "off", group,
                "Shows whole numbers as categories: a colour of its own for each value, no value "
                "between two of them (the nearest sample), a legend instead of the colour bar. 0 is "
-               "the background, clear unless it has a name. Not with mip and isosurface; unlit."));
+               "the background, clear unless labels.names names it. Not with mip and isosurface; unlit."));
     const auto add = [&](KeySpec key) { keys.push_back(when(std::move(key), "labels.show", {"on"})); };
     KeySpec names =
         withNone(typed("labels.names", KeyType::Text, None{}, group, "text",

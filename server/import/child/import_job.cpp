@@ -4,7 +4,7 @@
 #include "import/child/file_series.h"
 #include "import/client/import_options_json.h"
 #include "import/client/import_protocol.h"
-#include "import/formats/label_names.h"
+#include "import/formats/label_files.h"
 #include "import/formats/own_readers.h"
 #include "store/store_key.h"
 #include "store/store_writer.h"
@@ -88,10 +88,7 @@ SourceHeader readHeader(const SourceReader& reader, const std::filesystem::path&
         readerLimits.maxBytes = limits.maxVoxelBytes;
         auto header = reader.readHeader(file, options, readerLimits);
         header.meta.sourcePath = file.string();
-        if (const auto sidecar = labelSidecarOf(file)) {
-            header.meta.labels = readLabelSidecar(InputFile(*sidecar));
-            header.files.push_back(*sidecar);
-        }
+        addLabelFiles(file, header);
         return header;
     });
 }

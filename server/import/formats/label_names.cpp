@@ -1,10 +1,10 @@
 #include "import/formats/label_names.h"
 
 #include "base/errors.h"
+#include "import/formats/label_set.h"
 #include "import/formats/number_text.h"
 #include "store/meta_json.h"
 
-#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -16,83 +16,35 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostLabels = 4096;
-constexpr std::size_t kLongestNameBytes = 200;
-constexpr std::int64_t kLargestLabel = std::int64_t{1} << 53; // a double holds all smaller ones
-
-using LabelsByValue = std::map<std::int64_t, LabelMeta>;
-
-/// Headers need not be UTF-8, descriptions of datasets must be.
-std::string validName(std::string_view text) {
-    const json quoted = std::string(trimmed(text).substr(0, kLongestNameBytes));
-    return json::parse(quoted.dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
-}
-
-std::vector<LabelMeta> listed(LabelsByValue&& labels) {
-    std::vector<LabelMeta> list;
-    for (auto& [value, label] : labels)
-        list.push_back(std::move(label));
-    return list;
-}
-
-std::optional<std::int64_t> labelValue(std::string_view text) {
-    const auto value = parseInteger(text);
-    return value && *value >= -kLargestLabel && *value <= kLargestLabel ? value : std::nullopt;
-}
-
-std::optional<glm::dvec3> unitColour(const std::string& text) {
-    const auto numbers = parseNumbers(text, 3);
-    if (!numbers ||
-        std::any_of(numbers->begin(), numbers->end(), [](double c) { return c < 0.0 || c > 1.0; }))
-        return std::nullopt;
-    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
-}
-
-/// `#rrggbb`
-std::optional<glm::dvec3> hexColour(std::string_view text) {
-    static constexpr std::string_view digits = "0123456789abcdef";
-    if (text.size() != 7 || text[0] != '#') return std::nullopt;
-    const auto lower = lowerCase(text);
-    glm::dvec3 rgb{0.0};
-    for (int channel = 0; channel < 3; ++channel) {
-        const auto at = 1 + 2 * static_cast<std::size_t>(channel);
-        const auto high = digits.find(lower[at]);
-        const auto low = digits.find(lower[at + 1]);
-        if (high == std::string_view::npos || low == std::string_view::npos) return std::nullopt;
-        rgb[channel] = static_cast<double>(16 * high + low) / 255.0;
-    }
-    return rgb;
-}
-
-LabelMeta sidecarLabel(const std::string& file, const std::string& key, const json& entry) {
+void addSidecarLabel(LabelSet& labels, const std::string& file, const std::string& key, const json& entry) {
     const auto fail = [&](const std::string& why) {
         throw InvalidInput(file, "the label '" + printable(key) + "' " + why,
                            R"(write labels as {"labels": {"1": "liver", "2": {"name": "spleen", "colour": )"
                            R"("#aa3300"}}})")
             .withField("labels");
     };
-    LabelMeta label;
-    const auto value = labelValue(key);
+    std::string name;
+    std::optional<glm::dvec3> rgb;
+    const auto value = parseInteger(key);
     if (!value) fail("is not a whole number");
-    label.value = *value;
     if (entry.is_string()) {
-        label.name = validName(entry.get<std::string>());
+        name = entry.get<std::string>();
     } else if (entry.is_object()) {
         for (const auto& [member, content] : entry.items()) {
             if (!content.is_string()) fail("has a member that is not a text");
             const auto text = content.get<std::string>();
             if (member == "name")
-                label.name = validName(text);
+                name = text;
             else if (member != "colour" && member != "color")
                 fail("has the member '" + printable(member) + "', which is not known");
-            else if (label.rgb = hexColour(text); !label.rgb)
+            else if (rgb = hexColour(text); !rgb)
                 fail("has a colour that is not #rrggbb");
         }
     } else {
         fail("is neither a name nor an object with name and colour");
     }
-    if (label.name.empty() && !label.rgb) fail("has no name and no colour");
-    return label;
+    if (name.empty() && !rgb) fail("has no name and no colour");
+    if (!labels.add(*value, name, rgb)) fail("is given twice, or out of range");
 }
 
 } // namespace
@@ -100,7 +52,7 @@ LabelMeta sidecarLabel(const std::string& file, const std::string& key, const js
 std::vector<LabelMeta> segmentLabels(const std::map<std::string, std::string>& pairs,
                                      std::vector<std::string>& notes) {
     constexpr std::string_view ending = "_Name";
-    LabelsByValue labels;
+    LabelSet labels;
     std::set<std::string> layers;
     std::size_t left = 0;
     for (const auto& [key, name] : pairs) {
@@ -111,11 +63,8 @@ std::vector<LabelMeta> segmentLabels(const std::map<std::string, std::string>& p
             const auto found = pairs.find(segment + what);
             return found == pairs.end() ? std::string{} : found->second;
         };
-        const auto value = labelValue(trimmed(find("_LabelValue")));
-        const bool taken =
-            value && labels.size() < kMostLabels &&
-            labels.emplace(*value, LabelMeta{*value, validName(name), unitColour(find("_Color"))}).second;
-        if (!taken) ++left;
+        const auto value = parseInteger(trimmed(find("_LabelValue")));
+        if (!value || !labels.add(*value, name, colourOf(find("_Color"), 1.0))) ++left;
         layers.insert(find("_Layer"));
     }
     if (layers.size() > 1) {
@@ -125,16 +74,7 @@ std::vector<LabelMeta> segmentLabels(const std::map<std::string, std::string>& p
     if (left > 0)
         notes.push_back("Names of " + std::to_string(left) +
                         " segments are not used: their label values are missing, invalid or given twice.");
-    return listed(std::move(labels));
-}
-
-std::optional<std::filesystem::path> labelSidecarOf(const std::filesystem::path& file) {
-    auto stem = file.filename();
-    if (stem.extension() == ".gz" || stem.extension() == ".bz2") stem = stem.stem();
-    const auto name = stem.stem().string() + ".labels.json";
-    std::error_code error;
-    if (!std::filesystem::exists(file.parent_path() / name, error)) return std::nullopt;
-    return resolveBeside(file, name);
+    return labels.list();
 }
 
 std::vector<LabelMeta> readLabelSidecar(const InputFile& file) {
@@ -149,13 +89,10 @@ std::vector<LabelMeta> readLabelSidecar(const InputFile& file) {
     const auto& entries = document.at("labels");
     if (entries.size() > kMostLabels)
         throw LimitExceeded(file.name(), "it names more than " + std::to_string(kMostLabels) + " labels");
-    LabelsByValue labels;
-    for (const auto& [key, entry] : entries.items()) {
-        auto label = sidecarLabel(file.name(), key, entry);
-        const auto value = label.value;
-        labels.insert_or_assign(value, std::move(label));
-    }
-    return listed(std::move(labels));
+    LabelSet labels;
+    for (const auto& [key, entry] : entries.items())
+        addSidecarLabel(labels, file.name(), key, entry);
+    return labels.list();
 }
 
 } // namespace voxsheet::import

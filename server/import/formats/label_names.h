@@ -4,9 +4,7 @@
 #include "import/formats/input_file.h"
 #include "volume/dataset.h"
 
-#include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +16,6 @@ namespace voxsheet::import {
 /// lie in several layers, since a value means different things there. Both are said in `notes`.
 [[nodiscard]] std::vector<LabelMeta> segmentLabels(const std::map<std::string, std::string>& pairs,
                                                    std::vector<std::string>& notes);
-
-/// The sidecar of labels beside a file: its name without ".gz" or ".bz2" and without one more ending, and
-/// ".labels.json" (liver.nii.gz: liver.labels.json). Nothing if there is none. Throws InvalidInput if it is a
-/// symbolic link that leaves the folder.
-[[nodiscard]] std::optional<std::filesystem::path> labelSidecarOf(const std::filesystem::path& file);
 
 /// `{"labels": {"1": "liver", "2": {"name": "spleen", "colour": "#aa3300"}}}`, by value. Throws InvalidInput
 /// (subject: the file's name; field: labels), LimitExceeded for more than 4096 labels.

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "import/formats/field_names.h"
 #include "import/formats/nifti_header.h"
+#include "import/formats/nifti_labels.h"
 #include "import/formats/number_text.h"
 #include "import/formats/voxel_plan.h"
 
@@ -198,6 +199,7 @@ SourceHeader NiftiReader::readHeader(const fs::path& path, const ImportOptions&,
     meta.fields = makeFields(plan->components * plan->outerFields, voxel.type, voxel.components);
     setScaling(header, meta);
     validateGrid(meta.grid);
+    meta.labels = niftiLabels(file, start.compression, header, meta.notes);
 
     DataSegment segment;
     segment.file = canonicalPath(path);

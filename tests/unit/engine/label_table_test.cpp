@@ -68,7 +68,7 @@ TEST(LabelTable, ANamedBackgroundIsSeen) {
 }
 
 TEST(LabelTable, TheFilesNamesHoldWhereTheStyleSaysNothing) {
-    const std::vector<LabelMeta> own{{0, "", std::nullopt},
+    const std::vector<LabelMeta> own{{0, "Clear Label", glm::dvec3(0)},
                                      {1, "liver", glm::dvec3(1, 0, 0)},
                                      {2, "spleen", glm::dvec3(0, 1, 0)},
                                      {3, "gall", std::nullopt}};
@@ -81,7 +81,25 @@ TEST(LabelTable, TheFilesNamesHoldWhereTheStyleSaysNothing) {
     EXPECT_EQ(table.nameOf(4.0), "4");
     EXPECT_EQ(glm::vec3(classify(*table.table, 1.0)), glm::vec3(1, 0, 0)) << "the file's colour";
     EXPECT_EQ(glm::vec3(classify(*table.table, 2.0)), glm::vec3(0, 0, 1)) << "the style's colour";
-    EXPECT_EQ(classify(*table.table, 0.0).w, 0.0) << "an entry without a name and colour names nothing";
+    EXPECT_EQ(classify(*table.table, 0.0).w, 0.0) << "the background stays clear, also with a name";
+}
+
+TEST(LabelTable, OfAWholeAtlasTheLegendListsWhatTheDataMayHave) {
+    std::vector<LabelMeta> own;
+    for (std::int64_t value = 0; value <= 2035; ++value)
+        own.push_back({value, "region " + std::to_string(value), std::nullopt});
+    const auto names = [&](const FieldMeta& field) {
+        std::vector<std::string> list;
+        for (const auto& label : tableOf({}, field, 1.0, own).labels)
+            list.push_back(label.name);
+        return list;
+    };
+    EXPECT_EQ(names(fieldOf({{0, 9}, {3, 1}, {77, 1}})), (std::vector<std::string>{"region 3", "region 77"}));
+    // Beyond 256 values a bin holds several.
+    const auto wide = names(fieldOf({{0, 9}, {2035, 1}}));
+    ASSERT_FALSE(wide.empty());
+    EXPECT_LE(wide.size(), 16U);
+    EXPECT_EQ(wide.back(), "region 2035");
 }
 
 TEST(LabelTable, ColoursOfNeighboursAreFarApartAndAlwaysTheSame) {
