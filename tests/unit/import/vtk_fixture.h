@@ -13,13 +13,12 @@ inline Loaded loadAny(const fs::path& path, const ImportOptions& options = {},
     static const ReaderRegistry readers;
     const auto& reader = readers.choose(path, options);
     Loaded loaded{reader.readHeader(path, options, limits), {}};
-    const auto notes = reader.readData(
-        loaded.header,
-        [&](int field, int step, std::vector<std::byte>&& voxels) {
+    const auto sink =
+        applyOptions(loaded.header, options, [&](int field, int step, std::vector<std::byte>&& voxels) {
             EXPECT_EQ(voxels.size(), loaded.header.arrayBytes(field));
             EXPECT_TRUE(loaded.arrays.emplace(std::pair(field, step), std::move(voxels)).second);
-        },
-        [](double) {});
+        });
+    const auto notes = reader.readData(loaded.header, sink, [](double) {});
     loaded.header.meta.notes.insert(loaded.header.meta.notes.end(), notes.begin(), notes.end());
     EXPECT_EQ(loaded.arrays.size(), loaded.meta().fields.size() * loaded.meta().times.size());
     return loaded;

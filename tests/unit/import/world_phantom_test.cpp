@@ -1,52 +1,11 @@
-// One phantom in every format that holds an orientation: 2 x 3 x 4 samples, all different, steps of 0.5, 2
-// and 3 along axes turned by 3-4-5 about z and, after that, about x, in RAS. The same voxels at the same
-// places.
+// The phantom in the formats that hold an anatomical orientation.
 #include "nifti_bytes.h"
-#include "vtk_fixture.h"
-
-#include <sstream>
+#include "world_phantom.h"
 
 namespace voxsheet::import::testing {
 namespace {
 
-const glm::dvec3 kSteps{0.5, 2.0, 3.0};
-const glm::dmat3 kAboutZ{0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1}; // columns
-const glm::dmat3 kAboutX{1, 0, 0, 0, 0.8, 0.6, 0, -0.6, 0.8};
-const glm::dmat3 kDirection = kAboutX * kAboutZ;
-const glm::dvec3 kOrigin{-11.0, 7.0, 40.0};
-const glm::dvec3 kToLps{-1, -1, 1};
-
-std::string text(double number) {
-    std::ostringstream out;
-    out.precision(17);
-    out << number;
-    return out.str();
-}
-
-std::string text(const glm::dvec3& v, const std::string& between) {
-    return text(v.x) + between + text(v.y) + between + text(v.z);
-}
-
-std::string vector(const glm::dvec3& v) { return "(" + text(v, ",") + ")"; }
-
-class WorldPhantom : public FormatsTest {
-protected:
-    /// \param tolerance  of what the header's numbers can hold, in world units
-    void expectPhantom(const fs::path& file, double tolerance = 1e-12) {
-        const auto loaded = loadAny(file);
-        EXPECT_EQ(loaded.meta().grid.dims, glm::ivec3(2, 3, 4)) << file;
-        EXPECT_EQ(loaded.values<short>(), samples_) << file;
-        EXPECT_TRUE(loaded.meta().anatomical) << file;
-        for (const glm::dvec3 index : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 2, 0),
-                                       glm::dvec3(0, 0, 3), glm::dvec3(1, 2, 3)}) {
-            const glm::dvec3 place(loaded.meta().grid.worldFromIndex * glm::dvec4(index, 1.0));
-            const glm::dvec3 expected = kOrigin + kDirection * (kSteps * index);
-            EXPECT_LT(glm::distance(place, expected), tolerance) << file << " at " << text(index, " ");
-        }
-    }
-
-    std::vector<short> samples_ = ramp<short>(24);
-};
+std::string inBrackets(const glm::dvec3& v) { return "(" + text(v, ",") + ")"; }
 
 TEST_F(WorldPhantom, NrrdInEverySpace) {
     for (const auto& [space, mirror] : {std::pair{"right-anterior-superior", glm::dvec3(1)},
@@ -54,12 +13,12 @@ TEST_F(WorldPhantom, NrrdInEverySpace) {
                                         std::pair{"left-posterior-superior", kToLps}}) {
         std::string directions;
         for (int axis = 0; axis < 3; ++axis)
-            directions += " " + vector(mirror * kDirection[axis] * kSteps[axis]);
-        expectPhantom(write(
-            "a.nrrd", std::string("NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nendian: "
-                                  "little\nencoding: raw\nspace: ") +
-                          space + "\nspace directions:" + directions +
-                          "\nspace origin: " + vector(mirror * kOrigin) + "\n\n" + littleEndian(samples_)));
+            directions += " " + inBrackets(mirror * kDirection[axis] * kSteps[axis]);
+        expectPhantom(
+            write("a.nrrd", std::string("NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nendian: "
+                                        "little\nencoding: raw\nspace: ") +
+                                space + "\nspace directions:" + directions + "\nspace origin: " +
+                                inBrackets(mirror * kOrigin) + "\n\n" + littleEndian(samples_)));
     }
 }
 
