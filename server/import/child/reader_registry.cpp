@@ -6,6 +6,7 @@
 #include "import/tiff/tiff_reader.h"
 #include "import/vtk_legacy/legacy_vtk_reader.h"
 #ifdef VOXSHEET_HAS_VTK
+#include "import/vtk/amr_reader.h"
 #include "import/vtk/vti_reader.h"
 #endif
 
@@ -52,6 +53,7 @@ ReaderRegistry::ReaderRegistry() : readers_(makeOwnReaders()) {
     insert(makeLegacyVtkReader());
     insert(makeTiffReader());
 #ifdef VOXSHEET_HAS_VTK
+    insert(makeAmrReader()); // before the one that takes all XML of VTK
     insert(makeVtiReader());
 #endif
     // Last: a binary STL is known by its length only.

@@ -3,10 +3,9 @@
 #include "base/errors.h"
 #include "import/formats/label_set.h"
 #include "import/formats/number_text.h"
+#include "import/formats/xml_walk.h"
 
 #include <algorithm>
-#include <expat.h>
-#include <memory>
 #include <optional>
 #include <span>
 
@@ -20,66 +19,36 @@ constexpr std::size_t kMostLetters = 4096;   // of a name in the file
 /// The first LabelTable of the XML; anything else is skipped.
 class LabelTableParser {
 public:
-    LabelTableParser() : parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
-        XML_SetUserData(parser_.get(), this);
-        XML_SetElementHandler(parser_.get(), onStart, onEnd);
-        XML_SetCharacterDataHandler(parser_.get(), onText);
-        XML_SetStartDoctypeDeclHandler(parser_.get(), onDoctype);
-    }
+    explicit LabelTableParser(const std::string& name)
+        : walk_(name, {[this](auto& element, auto& attributes) { start(element, attributes); },
+                       [this](auto& element) { end(element); },
+                       [this](auto characters) {
+                           if (name_.size() < kMostLetters) name_ += characters;
+                       }}) {}
 
-    /// What is wrong with the XML; empty if nothing is.
-    std::string parse(std::string_view xml) {
-        const auto status = XML_Parse(parser_.get(), xml.data(), static_cast<int>(xml.size()), 1);
-        if (status == XML_STATUS_OK || tables_ > 1) return {}; // stopped after the first table
-        if (doctype_) return "it declares a document type";
-        return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())) + ": " +
-               XML_ErrorString(XML_GetErrorCode(parser_.get()));
-    }
+    /// Throws InvalidInput.
+    void parse(std::string_view xml) { walk_.feed(xml, true); }
 
     [[nodiscard]] const LabelSet& labels() const { return labels_; }
     [[nodiscard]] std::size_t leftOut() const { return leftOut_; }
 
 private:
-    static LabelTableParser& self(void* parser) { return *static_cast<LabelTableParser*>(parser); }
-
-    static void onStart(void* parser, const XML_Char* name, const XML_Char** attributes) {
-        self(parser).start(name, attributes);
-    }
-    static void onEnd(void* parser, const XML_Char* name) { self(parser).end(name); }
-    static void onText(void* parser, const XML_Char* text, int length) {
-        auto& name = self(parser).name_;
-        if (name.size() < kMostLetters) name.append(text, static_cast<std::size_t>(length));
-    }
-    static void onDoctype(void* parser, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-        self(parser).doctype_ = true;
-        XML_StopParser(self(parser).parser_.get(), XML_FALSE);
-    }
-
-    void start(std::string_view element, const XML_Char** attributes) {
-        if (element == "LabelTable" && ++tables_ > 1) XML_StopParser(parser_.get(), XML_FALSE);
+    void start(const std::string& element, const XmlWalk::Attributes& attributes) {
+        if (element == "LabelTable" && ++tables_ > 1) walk_.stop();
         if (element != "Label" || tables_ != 1) return;
         name_.clear();
-        key_.reset();
-        std::string red;
-        std::string green;
-        std::string blue;
-        for (; attributes[0]; attributes += 2) {
-            const std::string_view attribute = attributes[0];
-            if (attribute == "Key") key_ = parseInteger(attributes[1]);
-            if (attribute == "Red") red = attributes[1];
-            if (attribute == "Green") green = attributes[1];
-            if (attribute == "Blue") blue = attributes[1];
-        }
-        rgb_ = colourOf(red + " " + green + " " + blue, 1.0);
+        key_ = parseInteger(valueOf(attributes, "Key"));
+        rgb_ = colourOf(valueOf(attributes, "Red") + " " + valueOf(attributes, "Green") + " " +
+                            valueOf(attributes, "Blue"),
+                        1.0);
     }
 
-    void end(std::string_view element) {
+    void end(const std::string& element) {
         if (element != "Label" || tables_ != 1) return;
         if (!key_ || !labels_.add(*key_, name_, rgb_)) ++leftOut_;
     }
 
-    std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
-    bool doctype_ = false;
+    XmlWalk walk_;
     int tables_ = 0;
     std::optional<std::int64_t> key_;
     std::optional<glm::dvec3> rgb_;
@@ -139,9 +108,11 @@ std::vector<LabelMeta> niftiLabels(const InputFile& file, Compression compressio
         rest.remove_prefix(static_cast<std::size_t>(size));
         content = trimmed(content.substr(0, content.find('\0'))); // filled up to 16 bytes
         if (content.find("<CaretExtension") == std::string_view::npos) continue;
-        LabelTableParser parser;
-        if (const auto wrong = parser.parse(content); !wrong.empty()) {
-            notes.push_back("The table of labels in its header was left out: " + printable(wrong) + ".");
+        LabelTableParser parser(file.name());
+        try {
+            parser.parse(content);
+        } catch (const InvalidInput& error) {
+            notes.push_back("The table of labels in its header was left out: " + error.why() + ".");
             return {};
         }
         if (parser.leftOut() > 0)

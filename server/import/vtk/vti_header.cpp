@@ -3,12 +3,10 @@
 #include "base/errors.h"
 #include "import/formats/geometry.h"
 #include "import/formats/number_text.h"
+#include "import/formats/xml_walk.h"
 
 #include <algorithm>
 #include <array>
-#include <expat.h>
-#include <map>
-#include <memory>
 #include <optional>
 
 namespace voxsheet::import {
@@ -17,7 +15,7 @@ namespace {
 
 constexpr std::size_t kInlineHead = 4U << 20U; // base64 digits: the lengths of 390,000 compressed blocks
 
-using Attributes = std::map<std::string, std::string>;
+using Attributes = XmlWalk::Attributes;
 
 constexpr std::array<std::pair<std::string_view, ScalarType>, 10> kTypes{{
     {"Int8", ScalarType::I8},
@@ -40,22 +38,18 @@ bool isBase64(char c) {
 class VtiParser {
 public:
     explicit VtiParser(const InputFile& file)
-        : file_(file), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
-        XML_SetUserData(parser_.get(), this);
-        XML_SetElementHandler(parser_.get(), onStart, onEnd);
-        XML_SetCharacterDataHandler(parser_.get(), onText);
-        XML_SetStartDoctypeDeclHandler(parser_.get(), onDoctype);
-    }
+        : file_(file),
+          walk_(file.name(),
+                {[this](auto& element, auto& attributes) { start(element, attributes); },
+                 [this](auto& element) { end(element); }, [this](auto characters) { text(characters); }}) {}
 
     VtiHeader parse() {
         constexpr std::size_t chunk = 256 * 1024;
-        for (std::uint64_t at = 0; !stopped_; at += chunk) {
-            const auto text = file_.textAt(at, chunk);
-            const bool last = text.size() < chunk;
-            const auto status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), last);
-            if (failure_) std::rethrow_exception(failure_);
-            if (stopped_ || (status == XML_STATUS_OK && last)) break;
-            if (status != XML_STATUS_OK) damaged(xmlError());
+        bool last = false;
+        for (std::uint64_t at = 0; !last && !walk_.stopped(); at += chunk) {
+            const auto piece = file_.textAt(at, chunk);
+            last = piece.size() < chunk;
+            walk_.feed(piece, last);
         }
         if (!haveImage_) damaged("it has no element ImageData or RectilinearGrid");
         if (header_.rectilinear && header_.coordinates.size() != 3)
@@ -69,63 +63,33 @@ private:
         throw InvalidInput(file_.name(), why, "the file is damaged or incomplete: copy or write it again");
     }
 
-    [[nodiscard]] std::string xmlError() const {
-        return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())) + ": " +
-               XML_ErrorString(XML_GetErrorCode(parser_.get()));
-    }
-
-    /// Exceptions must not pass through expat's C code.
-    template <typename Body>
-    static void guarded(void* self, const Body& body) {
-        auto& parser = *static_cast<VtiParser*>(self);
-        if (parser.failure_ || parser.stopped_) return;
-        try {
-            body(parser);
-        } catch (...) {
-            parser.failure_ = std::current_exception();
-            XML_StopParser(parser.parser_.get(), XML_FALSE);
-        }
-    }
-    static void onStart(void* self, const XML_Char* name, const XML_Char** attributes) {
-        guarded(self, [&](VtiParser& parser) {
-            Attributes map;
-            for (; attributes[0]; attributes += 2)
-                map[attributes[0]] = attributes[1];
-            parser.start(name, map);
-        });
-    }
-    static void onEnd(void* self, const XML_Char* name) {
-        guarded(self, [&](VtiParser& parser) { parser.end(name); });
-    }
-    static void onText(void* self, const XML_Char* text, int length) {
-        guarded(self, [&](VtiParser& parser) { parser.text({text, static_cast<std::size_t>(length)}); });
-    }
-    static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-        guarded(self, [](VtiParser& parser) {
-            parser.damaged("it declares a document type, which no VTK file does");
-        });
-    }
-
     void start(const std::string& element, const Attributes& attributes) {
+        if (array_) {
+            ++withinArray_; // InformationKey and its Values
+            return;
+        }
         if (element == "VTKFile") return startFile(attributes);
         if (element == "ImageData" || element == "RectilinearGrid") return startImage(element, attributes);
         if (element == "Piece") return startPiece(attributes);
         if (element == "PointData" || element == "CellData") {
             section_ = element == "CellData" ? Section::Cells : Section::Points;
-            vectors_ = {value(attributes, "Vectors"), value(attributes, "Normals")};
+            vectors_ = {valueOf(attributes, "Vectors"), valueOf(attributes, "Normals")};
         } else if (element == "Coordinates") {
             section_ = Section::Coordinates;
         } else if (element == "DataArray" && section_ != Section::None) {
             startArray(attributes);
         } else if (element == "AppendedData") {
-            header_.appendedBase64 = value(attributes, "encoding") != "raw";
-            header_.appendedStart = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser_.get()));
-            stopped_ = true;
-            XML_StopParser(parser_.get(), XML_FALSE); // what follows need not be XML
+            header_.appendedBase64 = valueOf(attributes, "encoding") != "raw";
+            header_.appendedStart = walk_.bytePosition();
+            walk_.stop(); // what follows need not be XML
         }
     }
 
     void end(const std::string& element) {
+        if (withinArray_ > 0) {
+            --withinArray_;
+            return;
+        }
         if (element == "PointData" || element == "CellData" || element == "Coordinates")
             section_ = Section::None;
         if (element == "DataArray" && array_) {
@@ -137,16 +101,16 @@ private:
     }
 
     void startFile(const Attributes& attributes) {
-        const auto type = value(attributes, "type");
+        const auto type = valueOf(attributes, "type");
         header_.rectilinear = type == "RectilinearGrid";
         if (type != "ImageData" && !header_.rectilinear)
             throw Unsupported(
                 file_.name(), "it holds a VTK data set of the kind '" + printable(type) + "'",
                 "only image data (.vti), rectilinear grids (.vtr) and AMR data sets of images can be "
                 "read from VTK's XML files");
-        header_.bigEndian = value(attributes, "byte_order") == "BigEndian";
-        header_.headerIntegerBytes = value(attributes, "header_type") == "UInt64" ? 8 : 4;
-        header_.compressed = !value(attributes, "compressor").empty();
+        header_.bigEndian = valueOf(attributes, "byte_order") == "BigEndian";
+        header_.headerIntegerBytes = valueOf(attributes, "header_type") == "UInt64" ? 8 : 4;
+        header_.compressed = !valueOf(attributes, "compressor").empty();
         haveFile_ = true;
     }
 
@@ -189,11 +153,11 @@ private:
         if (!havePiece_) damaged("a DataArray stands outside of a Piece");
         const bool isCoordinate = section_ == Section::Coordinates;
         VtiArray array;
-        array.name = isCoordinate ? std::string("coordinates") : value(attributes, "Name");
-        const auto typeName = value(attributes, "type");
+        array.name = isCoordinate ? std::string("coordinates") : valueOf(attributes, "Name");
+        const auto typeName = valueOf(attributes, "type");
         const auto type = std::find_if(kTypes.begin(), kTypes.end(),
                                        [&](const auto& entry) { return entry.first == typeName; });
-        if (isCoordinate && (type == kTypes.end() || value(attributes, "NumberOfComponents", "1") != "1"))
+        if (isCoordinate && (type == kTypes.end() || valueOf(attributes, "NumberOfComponents", "1") != "1"))
             damaged("its coordinates are no numbers");
         if (type == kTypes.end()) {
             header_.notes.push_back("The array '" + printable(array.name) + "' was left out: its type is " +
@@ -201,15 +165,15 @@ private:
             return;
         }
         array.type = type->second;
-        const auto components = parseInteger(value(attributes, "NumberOfComponents", "1"));
+        const auto components = parseInteger(valueOf(attributes, "NumberOfComponents", "1"));
         if (!components || *components < 1 || *components > 1024)
             damaged("the array '" + printable(array.name) + "' has an impossible number of components");
         array.components = static_cast<int>(*components);
         array.ofCells = section_ == Section::Cells;
         array.isVector = std::find(vectors_.begin(), vectors_.end(), array.name) != vectors_.end();
-        const auto format = value(attributes, "format", "ascii");
+        const auto format = valueOf(attributes, "format", "ascii");
         if (format == "appended") {
-            const auto offset = parseInteger(trimmed(value(attributes, "offset")));
+            const auto offset = parseInteger(trimmed(valueOf(attributes, "offset")));
             if (!offset || *offset < 0) damaged("the array '" + printable(array.name) + "' has no offset");
             array.encoding = VtiEncoding::Appended;
             array.appendedOffset = static_cast<std::uint64_t>(*offset);
@@ -222,7 +186,7 @@ private:
     }
 
     void text(std::string_view characters) {
-        if (!array_ || array_->encoding == VtiEncoding::Appended) return;
+        if (!array_ || withinArray_ > 0 || array_->encoding == VtiEncoding::Appended) return;
         for (const char c : characters) {
             if (c == ' ' || (c >= '\t' && c <= '\r')) {
                 finishWord();
@@ -262,7 +226,7 @@ private:
         const auto isAppended = [](const VtiArray& a) { return a.encoding == VtiEncoding::Appended; };
         const bool needed = std::any_of(header_.arrays.begin(), header_.arrays.end(), isAppended) ||
                             std::any_of(header_.coordinates.begin(), header_.coordinates.end(), isAppended);
-        if (!stopped_) {
+        if (!walk_.stopped()) {
             if (needed) damaged("the appended data that it speaks of are missing");
             return;
         }
@@ -276,15 +240,9 @@ private:
         if (end.find("</VTKFile>") == std::string::npos) damaged("its end is missing");
     }
 
-    [[nodiscard]] static std::string value(const Attributes& attributes, const std::string& name,
-                                           const std::string& fallback = {}) {
-        const auto found = attributes.find(name);
-        return found == attributes.end() ? fallback : found->second;
-    }
-
     [[nodiscard]] std::vector<std::int64_t> integers(const Attributes& attributes,
                                                      const std::string& name) const {
-        const auto list = parseIntegers(value(attributes, name), 6);
+        const auto list = parseIntegers(valueOf(attributes, name), 6);
         if (!list) damaged("its " + name + " is not six whole numbers");
         for (const auto n : *list)
             if (n < -(1LL << 31) || n > (1LL << 31)) damaged("its " + name + " is out of range");
@@ -294,7 +252,7 @@ private:
     [[nodiscard]] std::vector<double> numbers(const Attributes& attributes, const std::string& name,
                                               const std::vector<double>& fallback) const {
         if (!attributes.contains(name)) return fallback;
-        const auto list = parseNumbers(value(attributes, name), fallback.size());
+        const auto list = parseNumbers(valueOf(attributes, name), fallback.size());
         if (!list) damaged("its " + name + " is not " + std::to_string(fallback.size()) + " finite numbers");
         return *list;
     }
@@ -302,10 +260,8 @@ private:
     enum class Section { None, Points, Cells, Coordinates };
 
     const InputFile& file_;
-    std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
+    XmlWalk walk_;
     VtiHeader header_;
-    std::exception_ptr failure_;
-    bool stopped_ = false;
     bool haveFile_ = false;
     bool haveImage_ = false;
     bool havePiece_ = false;
@@ -313,6 +269,7 @@ private:
     std::vector<std::int64_t> extent_;
     std::vector<std::string> vectors_;
     std::optional<VtiArray> array_;
+    int withinArray_ = 0; ///< elements that are open in it: what they say are no data
     std::string word_;
 };
 

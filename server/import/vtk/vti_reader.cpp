@@ -29,6 +29,8 @@ namespace voxsheet::import {
 
 namespace {
 
+constexpr const char* kFormat = "vti";
+
 struct ArrayPlan {
     VtiArray array;
     int firstField = 0;
@@ -37,6 +39,7 @@ struct ArrayPlan {
 struct VtiPlan {
     bool ofCells = false;
     bool rectilinear = false;
+    glm::ivec3 points{1};
     glm::ivec3 dims{1}; ///< of the arrays in the file
     std::optional<UniformResampling> resampling;
     std::vector<ArrayPlan> arrays;
@@ -137,9 +140,71 @@ bool isOfType(const vtkDataArray& array, ScalarType type) {
     });
 }
 
+const VtiPlan& planOf(const SourceHeader& header) { return *static_cast<const VtiPlan*>(header.plan.get()); }
+
+bool chooseCells(const InputFile& file, const VtiHeader& vti, VtiData wanted) {
+    if (vti.arrays.empty())
+        throw InvalidInput(file.name(), "it has no array of numbers for its points or cells");
+    const auto ofCells = [](const VtiArray& array) { return array.ofCells; };
+    if (wanted == VtiData::PointsFirst) return std::all_of(vti.arrays.begin(), vti.arrays.end(), ofCells);
+    if (std::none_of(vti.arrays.begin(), vti.arrays.end(), ofCells))
+        throw Unsupported(file.name(), "its values are those of points; a patch needs values of cells",
+                          "convert them, for example by VTK's vtkPointDataToCellData");
+    return true;
+}
+
+void placeRectilinear(const InputFile& file, const VtiHeader& vti, const ImportLimits& limits,
+                      SourceHeader& source, VtiPlan& plan) {
+    plan.rectilinear = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto& array = vti.coordinates[static_cast<std::size_t>(axis)];
+        checkVtiArray(file, vti, array,
+                      checkedBytes(file.name(), {vti.points.dims[axis]}, scalarBytes(array.type), limits));
+    }
+    const auto points = VtkImageFile(source.files.front().string(), true).coordinates();
+    for (int axis = 0; axis < 3; ++axis)
+        if (points[static_cast<std::size_t>(axis)].size() != static_cast<std::size_t>(vti.points.dims[axis]))
+            throw InvalidInput(file.name(), "VTK could not read all of its coordinates",
+                               "the file is damaged: copy or write it again");
+    const UniformResampling resampling(file.name(), points, plan.ofCells);
+    source.meta.grid = resampling.grid();
+    plan.dims = resampling.sourceDims();
+    if (resampling.isIdentity()) return;
+    plan.resampling = resampling;
+    source.meta.notes.push_back(resampling.note());
+}
+
+/// VTK finds arrays by name.
+void refuseSameName(const InputFile& file, const VtiPlan& plan, const VtiArray& array) {
+    for (const auto& other : plan.arrays)
+        if (other.array.name == array.name)
+            throw Unsupported(file.name(), "two of its arrays have the name '" + printable(array.name) + "'",
+                              "give each array a name of its own");
+    if (array.name.empty())
+        throw Unsupported(file.name(), "one of its arrays has no name", "give each array a name");
+}
+
+/// One array's components as fields.
+template <typename Sink>
+void readArray(VtkImageFile& file, const std::string& path, const VtiPlan& plan, const ArrayPlan& array,
+               const Sink& sink) {
+    const auto tuples = static_cast<std::size_t>(sampleCount(plan.dims));
+    const auto& wanted = array.array;
+    auto* const values = file.read(wanted, plan.ofCells);
+    if (!values || static_cast<std::size_t>(values->GetNumberOfTuples()) != tuples ||
+        values->GetNumberOfComponents() != wanted.components || !isOfType(*values, wanted.type))
+        throw InvalidInput(path, "VTK could not read all of the array '" + printable(wanted.name) + "'",
+                           "the file is damaged: copy or write it again");
+    for (int c = 0; c < wanted.components; ++c)
+        sink(array.firstField + c, [&] {
+            auto samples = component(*values, c, tuples, scalarBytes(wanted.type));
+            return plan.resampling ? plan.resampling->apply(samples, wanted.type) : std::move(samples);
+        });
+}
+
 class VtiReader : public SourceReader {
 public:
-    [[nodiscard]] const char* format() const override { return "vti"; }
+    [[nodiscard]] const char* format() const override { return kFormat; }
     [[nodiscard]] const char* description() const override {
         return "VTK XML images and rectilinear grids (.vti, .vtr)";
     }
@@ -150,115 +215,83 @@ public:
 
     [[nodiscard]] SourceHeader readHeader(const std::filesystem::path& path, const ImportOptions&,
                                           const ImportLimits& limits) const override {
-        const InputFile file(path);
-        const auto vti = parseVtiHeader(file);
-        SourceHeader source;
-        source.files.push_back(canonicalPath(path));
-        source.meta.format = format();
-        source.meta.notes = vti.notes;
-        auto plan = std::make_shared<VtiPlan>();
-        plan->ofCells = chooseCells(file, vti);
-        if (vti.rectilinear)
-            placeRectilinear(file, vti, limits, source, *plan);
-        else
-            source.meta.grid = plan->ofCells ? cellGrid(vti.points) : vti.points;
-        if (!vti.rectilinear) plan->dims = source.meta.grid.dims;
-        if (!plan->ofCells &&
-            std::any_of(vti.arrays.begin(), vti.arrays.end(), [](auto& a) { return a.ofCells; }))
-            source.meta.notes.emplace_back(
-                "The arrays of its cells were left out, because it has arrays of points.");
-
-        const auto& dims = plan->dims;
-        for (const auto& array : vti.arrays) {
-            if (array.ofCells != plan->ofCells) continue;
-            refuseSameName(file, *plan, array);
-            const auto bytes = checkedBytes(file.name(), {dims.x, dims.y, dims.z, array.components},
-                                            scalarBytes(array.type), limits);
-            checkVtiArray(file, vti, array, bytes);
-            plan->arrays.push_back({array, static_cast<int>(source.meta.fields.size())});
-            plan->arrays.back().array.inlineHead.clear();
-            appendFields(source.meta.fields, array.name, array.type, array.components, array.isVector);
-        }
-        if (plan->resampling)
-            for (auto& field : source.meta.fields)
-                field.storedType = plan->resampling->resultType(field.storedType);
-        checkFieldsAndSteps(file.name(), static_cast<std::int64_t>(source.meta.fields.size()), 1);
-        source.meta.sourceType = plan->arrays.front().array.type;
-        if (source.totalBytes() > limits.maxBytes)
-            throw LimitExceeded(file.name(), "its arrays need " + std::to_string(source.totalBytes()) +
-                                                 " bytes, more than the limit of " +
-                                                 std::to_string(limits.maxBytes));
-        source.plan = plan;
-        return source;
+        return readVtiHeader(path, limits, VtiData::PointsFirst);
     }
 
     [[nodiscard]] std::vector<std::string> readData(const SourceHeader& header, const ArraySink& sink,
                                                     const ReadProgress& progress) const override {
-        const auto& plan = *static_cast<const VtiPlan*>(header.plan.get());
+        const auto& plan = planOf(header);
         const auto path = header.files.front().string();
-        const auto tuples = static_cast<std::size_t>(sampleCount(plan.dims));
         VtkImageFile file(path, plan.rectilinear);
         for (std::size_t i = 0; i < plan.arrays.size(); ++i) {
-            const auto& wanted = plan.arrays[i].array;
-            auto* const array = file.read(wanted, plan.ofCells);
-            if (!array || static_cast<std::size_t>(array->GetNumberOfTuples()) != tuples ||
-                array->GetNumberOfComponents() != wanted.components || !isOfType(*array, wanted.type))
-                throw InvalidInput(path,
-                                   "VTK could not read all of the array '" + printable(wanted.name) + "'",
-                                   "the file is damaged: copy or write it again");
-            for (int c = 0; c < wanted.components; ++c) {
-                auto values = component(*array, c, tuples, scalarBytes(wanted.type));
-                if (plan.resampling) values = plan.resampling->apply(values, wanted.type);
-                sink(plan.arrays[i].firstField + c, 0, std::move(values));
-            }
+            readArray(file, path, plan, plan.arrays[i],
+                      [&](int field, const auto& samples) { sink(field, 0, samples()); });
             if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(plan.arrays.size()));
         }
         return {};
     }
-
-private:
-    [[nodiscard]] static bool chooseCells(const InputFile& file, const VtiHeader& vti) {
-        if (vti.arrays.empty())
-            throw InvalidInput(file.name(), "it has no array of numbers for its points or cells");
-        return std::none_of(vti.arrays.begin(), vti.arrays.end(), [](auto& a) { return !a.ofCells; });
-    }
-
-    static void placeRectilinear(const InputFile& file, const VtiHeader& vti, const ImportLimits& limits,
-                                 SourceHeader& source, VtiPlan& plan) {
-        plan.rectilinear = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto& array = vti.coordinates[static_cast<std::size_t>(axis)];
-            checkVtiArray(
-                file, vti, array,
-                checkedBytes(file.name(), {vti.points.dims[axis]}, scalarBytes(array.type), limits));
-        }
-        const auto points = VtkImageFile(source.files.front().string(), true).coordinates();
-        for (int axis = 0; axis < 3; ++axis)
-            if (points[static_cast<std::size_t>(axis)].size() !=
-                static_cast<std::size_t>(vti.points.dims[axis]))
-                throw InvalidInput(file.name(), "VTK could not read all of its coordinates",
-                                   "the file is damaged: copy or write it again");
-        const UniformResampling resampling(file.name(), points, plan.ofCells);
-        source.meta.grid = resampling.grid();
-        plan.dims = resampling.sourceDims();
-        if (resampling.isIdentity()) return;
-        plan.resampling = resampling;
-        source.meta.notes.push_back(resampling.note());
-    }
-
-    /// VTK finds arrays by name.
-    static void refuseSameName(const InputFile& file, const VtiPlan& plan, const VtiArray& array) {
-        for (const auto& other : plan.arrays)
-            if (other.array.name == array.name)
-                throw Unsupported(file.name(),
-                                  "two of its arrays have the name '" + printable(array.name) + "'",
-                                  "give each array a name of its own");
-        if (array.name.empty())
-            throw Unsupported(file.name(), "one of its arrays has no name", "give each array a name");
-    }
 };
 
 } // namespace
+
+SourceHeader readVtiHeader(const std::filesystem::path& path, const ImportLimits& limits, VtiData wanted) {
+    const InputFile file(path);
+    const auto vti = parseVtiHeader(file);
+    SourceHeader source;
+    source.files.push_back(canonicalPath(path));
+    source.meta.format = kFormat;
+    source.meta.notes = vti.notes;
+    auto plan = std::make_shared<VtiPlan>();
+    plan->ofCells = chooseCells(file, vti, wanted);
+    plan->points = vti.points.dims;
+    if (vti.rectilinear)
+        placeRectilinear(file, vti, limits, source, *plan);
+    else
+        source.meta.grid = plan->ofCells ? cellGrid(vti.points) : vti.points;
+    if (!vti.rectilinear) plan->dims = source.meta.grid.dims;
+    if (!plan->ofCells &&
+        std::any_of(vti.arrays.begin(), vti.arrays.end(), [](auto& a) { return a.ofCells; }))
+        source.meta.notes.emplace_back(
+            "The arrays of its cells were left out, because it has arrays of points.");
+
+    const auto& dims = plan->dims;
+    for (const auto& array : vti.arrays) {
+        if (array.ofCells != plan->ofCells) continue;
+        refuseSameName(file, *plan, array);
+        const auto bytes = checkedBytes(file.name(), {dims.x, dims.y, dims.z, array.components},
+                                        scalarBytes(array.type), limits);
+        checkVtiArray(file, vti, array, bytes);
+        plan->arrays.push_back({array, static_cast<int>(source.meta.fields.size())});
+        plan->arrays.back().array.inlineHead.clear();
+        appendFields(source.meta.fields, array.name, array.type, array.components, array.isVector);
+    }
+    if (plan->resampling)
+        for (auto& field : source.meta.fields)
+            field.storedType = plan->resampling->resultType(field.storedType);
+    checkFieldsAndSteps(file.name(), static_cast<std::int64_t>(source.meta.fields.size()), 1);
+    source.meta.sourceType = plan->arrays.front().array.type;
+    if (source.totalBytes() > limits.maxBytes)
+        throw LimitExceeded(file.name(), "its arrays need " + std::to_string(source.totalBytes()) +
+                                             " bytes, more than the limit of " +
+                                             std::to_string(limits.maxBytes));
+    source.plan = plan;
+    return source;
+}
+
+glm::ivec3 vtiPointDims(const SourceHeader& header) { return planOf(header).points; }
+
+std::vector<std::byte> readVtiField(const SourceHeader& header, int field) {
+    const auto& plan = planOf(header);
+    const auto path = header.files.front().string();
+    VtkImageFile file(path, plan.rectilinear);
+    std::vector<std::byte> result;
+    for (const auto& array : plan.arrays)
+        if (field >= array.firstField && field < array.firstField + array.array.components)
+            readArray(file, path, plan, array, [&](int read, const auto& samples) {
+                if (read == field) result = samples();
+            });
+    return result;
+}
 
 std::unique_ptr<SourceReader> makeVtiReader() { return std::make_unique<VtiReader>(); }
 

@@ -12,4 +12,15 @@ namespace voxsheet::import {
 /// are resampled to uniform ones (formats/rectilinear_axes.h). Other VTK XML files are Unsupported.
 [[nodiscard]] std::unique_ptr<SourceReader> makeVtiReader();
 
+/// For data sets that are made of several such files.
+enum class VtiData { PointsFirst, Cells };
+
+/// As the reader's. Throws Unsupported, too, if cells are wanted and there are arrays of points alone.
+[[nodiscard]] SourceHeader readVtiHeader(const std::filesystem::path& path, const ImportLimits& limits,
+                                         VtiData wanted);
+/// Points along the axes of what readVtiHeader described.
+[[nodiscard]] glm::ivec3 vtiPointDims(const SourceHeader& header);
+/// One field of it. Throws InvalidInput.
+[[nodiscard]] std::vector<std::byte> readVtiField(const SourceHeader& header, int field);
+
 } // namespace voxsheet::import

@@ -2,6 +2,7 @@
 #include "../vtk_fixture.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -26,13 +27,23 @@ TEST_F(VtiByVtk, EveryCompressorAndModeGivesTheSameVolume) {
         array->InsertNextValue(values.back());
     }
     image->GetPointData()->SetScalars(array);
+    // VTK writes the range of lengths into the element of a vector's data.
+    vtkNew<vtkFloatArray> vectors;
+    vectors->SetName("moved");
+    vectors->SetNumberOfComponents(3);
+    std::vector<float> along;
+    for (int i = 0; i < dims.x * dims.y * dims.z; ++i) {
+        along.push_back(0.5F * static_cast<float>(i));
+        vectors->InsertNextTuple3(along.back(), -1.5, 1e-3);
+    }
+    image->GetPointData()->AddArray(vectors);
 
     vtkNew<vtkXMLImageDataWriter> writer;
     writer->SetInputData(image);
     writer->SetBlockSize(1024); // several blocks
     using Writer = vtkXMLWriter;
     for (const int compressor : {Writer::NONE, Writer::ZLIB, Writer::LZ4, Writer::LZMA})
-        for (const int mode : {Writer::Binary, Writer::Appended})
+        for (const int mode : {Writer::Ascii, Writer::Binary, Writer::Appended})
             for (const bool base64 : {false, true})
                 for (const bool wide : {false, true}) {
                     const auto file = folder_ / "a.vti";
@@ -52,7 +63,11 @@ TEST_F(VtiByVtk, EveryCompressorAndModeGivesTheSameVolume) {
                     EXPECT_EQ(loaded.meta().grid.dims, dims);
                     EXPECT_EQ(spacingWorld(loaded.meta().grid), glm::dvec3(0.5, 2.0, 3.0));
                     EXPECT_EQ(loaded.meta().fields[0].name, "density");
-                    EXPECT_EQ(loaded.values<double>(), values);
+                    ASSERT_EQ(loaded.meta().fields.size(), 4U);
+                    EXPECT_EQ(loaded.values<float>(1), along);
+                    if (mode != Writer::Ascii) {
+                        EXPECT_EQ(loaded.values<double>(), values);
+                    }
                 }
 }
 
