@@ -165,6 +165,19 @@ bool isMetaImage(std::string_view head) {
             head.find("DimSize") != std::string_view::npos);
 }
 
+bool holdsOneOf(std::string_view text, std::initializer_list<std::string_view> words) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](auto word) { return text.find(word) != std::string_view::npos; });
+}
+
+std::optional<std::string> vtkXmlFormat(std::string_view text) {
+    if (holdsOneOf(text, {"\"ImageData\"", "\"RectilinearGrid\""})) return "vti";
+    if (holdsOneOf(text,
+                   {"\"vtkOverlappingAMR\"", "\"vtkNonOverlappingAMR\"", "\"vtkHierarchicalBoxDataSet\""}))
+        return "amr";
+    return std::nullopt;
+}
+
 /// Surfaces. A binary STL is known by its length: 80 bytes, a count of triangles and 50 bytes for each.
 std::optional<std::string> meshFormat(const std::filesystem::path& file, std::string_view head) {
     if (head.starts_with("ply\n") || head.starts_with("ply\r")) return "ply";
@@ -187,12 +200,10 @@ std::optional<std::string> guessFormat(const std::filesystem::path& file) {
     const std::string_view text = head;
     if (text.starts_with("NRRD00")) return "nrrd";
     if (isNifti(text)) return "nifti";
-    if (text.substr(0, 512).find("<VTKFile") != std::string_view::npos)
-        return text.find("\"ImageData\"") != std::string_view::npos ? std::optional<std::string>("vti")
-                                                                    : std::nullopt;
+    if (text.substr(0, 512).find("<VTKFile") != std::string_view::npos) return vtkXmlFormat(text);
     if (text.starts_with("# vtk DataFile"))
-        return text.find("STRUCTURED_POINTS") != std::string_view::npos ? std::optional<std::string>("vtk")
-                                                                        : std::nullopt;
+        return holdsOneOf(text, {"STRUCTURED_POINTS", "RECTILINEAR_GRID"}) ? std::optional<std::string>("vtk")
+                                                                           : std::nullopt;
     if (const auto mesh = meshFormat(file, text)) return mesh;
     if (isMetaImage(text)) return "metaimage";
     if (isTiff(text)) return "tiff";

@@ -89,6 +89,10 @@ TEST_F(FolderListingTest, FormatsByContent) {
     write("root/f.bin", "water\ndensity\n 1 0 0 0\n 9 .1D0 0 0\n 9 0 .1 0\n 9 0 0 .1\n 8 8.0 0 0 0\n");
     write("root/g.bin", std::string("II*\0", 4));
     write("root/h.bin", "# made by hand\n CRYSTAL\n\nPRIMVEC\n 4 0 0\n 0 4 0\n 0 0 4\n");
+    write("root/i.bin", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET RECTILINEAR_GRID\n");
+    write("root/j.bin", "<VTKFile type=\"RectilinearGrid\" version=\"0.1\">\n");
+    write("root/k.bin", "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkOverlappingAMR\" version=\"1.1\">\n");
+    write("root/l.bin", "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n");
     write("root/d.txt", "just a text\n");
     EXPECT_EQ(guessFormat(base_ / "root/a.bin"), "nrrd");
     EXPECT_EQ(guessFormat(base_ / "root/b.bin"), "metaimage");
@@ -98,6 +102,10 @@ TEST_F(FolderListingTest, FormatsByContent) {
     EXPECT_EQ(guessFormat(base_ / "root/f.bin"), "cube");
     EXPECT_EQ(guessFormat(base_ / "root/g.bin"), "tiff");
     EXPECT_EQ(guessFormat(base_ / "root/h.bin"), "xsf");
+    EXPECT_EQ(guessFormat(base_ / "root/i.bin"), "vtk");
+    EXPECT_EQ(guessFormat(base_ / "root/j.bin"), "vti");
+    EXPECT_EQ(guessFormat(base_ / "root/k.bin"), "amr");
+    EXPECT_FALSE(guessFormat(base_ / "root/l.bin"));
     EXPECT_FALSE(guessFormat(base_ / "root/d.txt"));
     EXPECT_FALSE(guessFormat(base_ / "root/absent"));
 }
