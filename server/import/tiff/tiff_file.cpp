@@ -16,7 +16,8 @@ namespace voxsheet::import {
 namespace {
 
 constexpr const char* kCopyAgain = "copy or write the file again";
-constexpr std::uint64_t kMostBlockBytes = 1ULL << 30; // of a strip or tile
+constexpr std::uint64_t kMostBlockBytes = 1ULL << 30; // of a strip
+constexpr std::uint64_t kMostTileBytes = 32ULL << 20; // 4096 x 4096 of 16 bits
 
 template <typename T>
 T tag(TIFF* handle, std::uint32_t which) {
@@ -147,6 +148,8 @@ void TiffFile::fail(const std::string& doing) const {
         source_->firstError; // some begin with the name of the file, which stands there anyway
     const auto name = source_->file->name() + ": ";
     if (error.starts_with(name)) error.remove_prefix(name.size());
+    while (error.ends_with(' ') || error.ends_with(':'))
+        error.remove_suffix(1);
     throw InvalidInput(source_->file->name(),
                        doing + " failed: " + (error.empty() ? "libtiff says no more" : printable(error)),
                        kCopyAgain);
@@ -252,7 +255,7 @@ void TiffFile::readTiles(const PageFormat& format, int page, const std::function
     const auto height = tag<std::uint32_t>(handle, TIFFTAG_TILELENGTH);
     const int perBlock = separate ? 1 : format.samples;
     const auto bytesPerRow = rowBytes(format.sample, std::size_t{width} * static_cast<std::size_t>(perBlock));
-    if (width == 0 || height == 0 || bytesPerRow > kMostBlockBytes / height ||
+    if (width == 0 || height == 0 || bytesPerRow > kMostTileBytes / height ||
         TIFFTileSize64(handle) != bytesPerRow * height)
         throw InvalidInput(source_->file->name(),
                            "page " + std::to_string(page) + " has tiles of " + std::to_string(width) + " x " +
@@ -271,6 +274,22 @@ void TiffFile::readTiles(const PageFormat& format, int page, const std::function
                 use({left, top, std::min(width, format.width - left), std::min(height, format.height - top),
                      width, sample, perBlock});
             }
+}
+
+void TiffFile::provePage(const PageFormat& expected, int page) {
+    source_->firstError.clear();
+    if (format(page) != expected) throw IoError(source_->file->name(), "it changed while it was read");
+    auto* const handle = handle_.get();
+    if (TIFFIsTiled(handle)) return readTiles(expected, page, [](const Block&) {});
+    const bool separate = tag<std::uint16_t>(handle, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
+    const auto rowBytes = static_cast<std::uint64_t>(TIFFScanlineSize64(handle));
+    if (rowBytes == 0 || rowBytes > kMostBlockBytes) fail("reading page " + std::to_string(page));
+    block_.resize(rowBytes);
+    for (int sample = 0; sample < (separate ? expected.samples : 1); ++sample)
+        for (std::uint32_t row = 0; row < expected.height; ++row)
+            if (TIFFReadScanline(handle, block_.data(), row, static_cast<std::uint16_t>(sample)) != 1 ||
+                !source_->firstError.empty())
+                fail("reading page " + std::to_string(page));
 }
 
 void TiffFile::readPage(const PageFormat& expected, int page, std::span<const std::span<std::byte>> planes) {

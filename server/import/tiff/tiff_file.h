@@ -72,6 +72,10 @@ public:
     /// green and blue (of 8 bits) for a palette when there are three planes. Throws InvalidInput.
     void readPage(const PageFormat& format, int page, std::span<const std::span<std::byte>> planes);
 
+    /// Decompresses the present page, of this format, and keeps nothing: a row (of strips) or a tile is held
+    /// at a time. Throws InvalidInput as readPage.
+    void provePage(const PageFormat& format, int page);
+
 private:
     struct Source {
         const InputFile* file = nullptr;

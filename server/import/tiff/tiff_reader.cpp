@@ -1,6 +1,7 @@
 #include "import/tiff/tiff_reader.h"
 
 #include "base/errors.h"
+#include "import/formats/byte_stream.h"
 #include "import/formats/field_names.h"
 #include "import/formats/geometry.h"
 #include "import/formats/voxel_plan.h"
@@ -19,6 +20,7 @@ constexpr std::size_t kMostPages = 65'535; // libtiff looks for loops with a sea
 
 struct TiffPlan {
     std::vector<std::uint64_t> pageOffsets; ///< of the pages that are slices
+    std::uint64_t storedBytes = 0;          ///< of all of them, decompressed
     PageFormat format;
     bool paletteAsRgb = false;
     int channels = 1; ///< of whole pages
@@ -79,7 +81,7 @@ PageTags collectPages(const InputFile& file, TiffFile& tiff, TiffPlan& plan,
     return first;
 }
 
-void checkBytes(const InputFile& file, const TiffPlan& plan, std::uint64_t bytesPerFileByte,
+void checkBytes(const InputFile& file, TiffPlan& plan, std::uint64_t bytesPerFileByte,
                 const ImportLimits& limits) {
     const auto pages = static_cast<std::int64_t>(plan.pageOffsets.size());
     (void)checkedBytes(file.name(), {plan.format.width, plan.format.height, pages, plan.planesPerPage()},
@@ -88,6 +90,7 @@ void checkBytes(const InputFile& file, const TiffPlan& plan, std::uint64_t bytes
                               std::size_t{plan.format.width} * static_cast<std::size_t>(plan.format.samples));
     const auto stored =
         checkedBytes(file.name(), {static_cast<std::int64_t>(row), plan.format.height, pages}, 1, limits);
+    plan.storedBytes = stored;
     if (bytesPerFileByte == 0 || stored / bytesPerFileByte <= file.bytes()) return;
     throw InvalidInput(file.name(),
                        "its pages need " + std::to_string(stored) +
@@ -283,6 +286,7 @@ public:
         const auto& plan = *static_cast<const TiffPlan*>(header.plan.get());
         const InputFile file(header.files.front());
         TiffFile tiff(file);
+        if (promisesMuch(plan.storedBytes, file.bytes())) provePages(tiff, plan);
         std::size_t pagesRead = 0;
         for (int frame = 0; frame < plan.frames; ++frame)
             for (int channel = 0; channel < plan.channels; ++channel) {
@@ -300,6 +304,14 @@ public:
     }
 
 private:
+    /// Before memory is taken for what a small file promises.
+    static void provePages(TiffFile& tiff, const TiffPlan& plan) {
+        for (std::size_t page = 0; page < plan.pageOffsets.size(); ++page) {
+            tiff.goToPage(plan.pageOffsets[page]);
+            tiff.provePage(plan.format, static_cast<int>(page) + 1);
+        }
+    }
+
     /// One volume for each plane of a page.
     static std::vector<std::vector<std::byte>> readChannel(TiffFile& tiff, const TiffPlan& plan, int channel,
                                                            int frame, const std::function<void()>& pageDone) {

@@ -2,6 +2,7 @@
 
 #include "nifti_bytes.h"
 #include "packed_bytes.h"
+#include "tiff_mutants.h"
 
 #include <cmath>
 #include <cstdint>
@@ -261,7 +262,8 @@ std::vector<Mutant> lies(const SampleFile& sample) {
     if (name.ends_with(".vtk")) return vtkLies(sample);
     if (name.ends_with(".ply") || name.ends_with(".stl") || name.ends_with(".obj")) return meshLies(sample);
     if (name.ends_with(".json")) return sidecarLies(sample);
-    return {}; // the same headers, encoded otherwise; TIFF has a test of its own
+    if (name.ends_with(".tif")) return tiffLies(sample);
+    return {}; // the same headers, encoded otherwise
 }
 
 std::vector<Mutant> bombs() {
@@ -311,6 +313,8 @@ std::vector<Mutant> bombs() {
         bomb("an endless line", "line.cube.gz", gzipBomb("x\n", std::string(1U << 20, 'x'), megabytes)));
     all.push_back(bomb("too few values", "few.cube.gz", gzipBomb(cube, ones, 312)));
     all.push_back(bomb("blanks", "blanks.cube.gz", gzipBomb(cube, blanks, megabytes)));
+    for (auto&& each : tiffBombs(std::filesystem::temp_directory_path()))
+        all.push_back(std::move(each));
     return all;
 }
 
