@@ -120,6 +120,7 @@ private:
         const auto type = numberType(words[0], words[2]);
         header_.coordinates.push_back(
             {std::string(words[0]), LegacyAttribute::Point, type, 1, false, cursor_.position()});
+        components_ = 1;
         skipNumbers(type, static_cast<std::uint64_t>(*count), printable(words[0]));
     }
 
@@ -212,6 +213,7 @@ private:
                 addArray(decodedName(parts[0]), parts[3], static_cast<int>(*components));
             } else {
                 const auto type = numberType(parts[0], parts[3]);
+                components_ = static_cast<int>(*components);
                 skipNumbers(type, static_cast<std::uint64_t>(*components * *tuples), printable(parts[0]));
             }
         }
@@ -231,6 +233,7 @@ private:
     void addArray(const std::string& name, std::string_view typeName, int components, bool colours = false) {
         const auto type = numberType(name, typeName);
         header_.arrays.push_back({name, *attribute_, type, components, colours, cursor_.position()});
+        components_ = components;
         skipNumbers(type, tuples_ * static_cast<std::uint64_t>(components), "'" + printable(name) + "'");
     }
 
@@ -242,10 +245,16 @@ private:
                     " numbers of the type " + scalarName(type));
     }
 
-    /// Ends at a blank line or the end of the file.
+    /// Of the array before it. Ends at a blank line or the end of the file; a component without a name is a
+    /// blank line, too.
     void skipMetadata() {
-        while (const auto text = cursor_.line())
-            if (trimmed(*text).empty()) return;
+        while (const auto text = cursor_.line()) {
+            const auto word = lowerCase(trimmed(*text));
+            if (word.empty()) return;
+            if (word != "component_names") continue;
+            for (int component = 0; component < components_; ++component)
+                (void)cursor_.line();
+        }
     }
 
     const InputFile& file_;
@@ -255,6 +264,7 @@ private:
     bool rectilinear_ = false;
     std::optional<LegacyAttribute> attribute_;
     std::uint64_t tuples_ = 0;
+    int components_ = 1; ///< of the last array
 };
 
 } // namespace

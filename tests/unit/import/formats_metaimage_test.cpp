@@ -66,6 +66,11 @@ TEST_F(FormatsMetaImage, ReadsDetachedData) {
     EXPECT_EQ(read("CompressedData = True\nElementDataFile = v.zraw\n"), values);
     EXPECT_EQ(read("ElementDataFile = LIST\ns0.raw\ns1.raw\n"), values);
     EXPECT_EQ(read("ElementDataFile = s%d.raw 0 1 1\n"), values);
+    for (int slice = 0; slice < 2; ++slice) // each compressed alone
+        write("z" + std::to_string(slice) + ".zraw",
+              zlibbed(raw.substr(static_cast<std::size_t>(slice) * 24, 24)));
+    EXPECT_EQ(read("CompressedData = True\nElementDataFile = LIST\nz0.zraw\nz1.zraw\n"), values);
+    EXPECT_EQ(read("CompressedData = True\nElementDataFile = z%d.zraw 0 1 1\n"), values);
 }
 
 TEST_F(FormatsMetaImage, PlacesItInRas) {

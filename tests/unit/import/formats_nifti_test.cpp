@@ -73,6 +73,19 @@ TEST_F(FormatsNifti, SplitsColoursComplexNumbersTimeAndVectors) {
     EXPECT_EQ(complex.meta().fields[1].name, "imaginary");
     EXPECT_EQ(complex.values<float>(1)[3], floats[7]);
 
+    const auto rgba = load(write("rgba.nii", NiftiBytes(2, false, {3, 2, 2}, 2304).with(bytesOf(values))));
+    ASSERT_EQ(rgba.meta().fields.size(), 4U);
+    EXPECT_EQ(rgba.meta().fields[3].name, "alpha");
+    const auto doubles = ramp<double>(16);
+    const auto wide = load(write("d.nii", NiftiBytes(1, true, {2, 2, 2}, 1792).with(bytesOf(doubles, true))));
+    ASSERT_EQ(wide.meta().fields.size(), 2U);
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(wide.values<double>(0)[i], doubles[2 * i]);
+        EXPECT_EQ(wide.values<double>(1)[i], doubles[2 * i + 1]);
+    }
+    for (std::size_t i = 0; i < 12; ++i)
+        EXPECT_EQ(rgba.values<unsigned char>(3)[i], values[4 * i + 3]);
+
     NiftiBytes series(1, false, {2, 2, 2, 3, 2}, 2);
     series.setPixdim(4, 500.0);
     series.setUnits(2 + 16); // mm, ms

@@ -179,6 +179,35 @@ TEST_F(ProcessImport, OptionsAreChecked) {
     EXPECT_THROW((void)import(file, nlohmann::json::array()), InvalidInput);
 }
 
+TEST_F(ProcessImport, OptionsReachTheVolume) {
+    std::string bytes = "HEAD";
+    for (char i = 0; i < 24; ++i)
+        bytes += std::string(1, '\0') + i; // big-endian
+    const auto file = write("scan.bin", bytes);
+    const auto key = import(file, {{"dims", {4, 3, 2}},
+                                   {"type", "u16"},
+                                   {"endian", "big"},
+                                   {"skip_bytes", 4},
+                                   {"spacing", {0.5, 2, 3}},
+                                   {"origin", {10, 20, 30}},
+                                   {"flip", {false, false, true}},
+                                   {"periodic", {true, false, false}},
+                                   {"no_data", 7}});
+    const auto entry = store::VolumeStore(settings_.storeFolder).open(key);
+    ASSERT_NE(entry, nullptr);
+    const auto& meta = *entry->meta();
+    EXPECT_EQ(meta.sourceType, ScalarType::U16);
+    EXPECT_EQ(meta.grid.dims, glm::ivec3(4, 3, 2));
+    EXPECT_EQ(spacingWorld(meta.grid), glm::dvec3(0.5, 2, 3));
+    EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[3]), glm::dvec3(10, 20, 33))
+        << "the last slice is the first";
+    EXPECT_EQ(meta.grid.worldFromIndex[2].z, -3.0);
+    EXPECT_EQ(meta.grid.periodic, glm::bvec3(true, false, false));
+    ASSERT_EQ(meta.fields[0].storedType, ScalarType::F32) << "for the value that is none";
+    EXPECT_EQ(meta.fields[0].steps[0].statistics.max, 23.0);
+    EXPECT_EQ(meta.fields[0].steps[0].statistics.finiteCount, 23U);
+}
+
 TEST_F(ProcessImport, MoreThanTheMemoryLimitIsRefusedBeforeItIsRead) {
     settings_.memoryLimitBytes = 64 << 20;
     const auto text = failure(largeVolume(256), ErrorKind::LimitExceeded);

@@ -1,6 +1,8 @@
 // Images by VTK's own writer, with every compressor and way to hold the data.
 #include "../vtk_fixture.h"
 
+#include <vtkAOSDataArrayTemplate.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -69,6 +71,53 @@ TEST_F(VtiByVtk, EveryCompressorAndModeGivesTheSameVolume) {
                         EXPECT_EQ(loaded.values<double>(), values);
                     }
                 }
+}
+
+template <typename T>
+void expectType(const fs::path& file, vtkXMLImageDataWriter& writer, vtkImageData& image) {
+    vtkNew<vtkAOSDataArrayTemplate<T>> array;
+    array->SetName("v");
+    const auto values = ramp<T>(24);
+    for (const T value : values)
+        array->InsertNextValue(value);
+    image.GetCellData()->Initialize();
+    image.GetCellData()->SetScalars(array);
+    writer.SetInputData(&image);
+    writer.SetFileName(file.c_str());
+    ASSERT_EQ(writer.Write(), 1);
+    const auto loaded = loadAny(file);
+    EXPECT_EQ(loaded.meta().grid.dims, glm::ivec3(2, 3, 4));
+    EXPECT_EQ(loaded.meta().grid.centring, Centring::Cell);
+    EXPECT_EQ(loaded.values<T>(), values) << array->GetDataTypeAsString();
+}
+
+TEST_F(VtiByVtk, CellsOfEveryTypeInBothByteOrders) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(3, 4, 5);
+    vtkNew<vtkXMLImageDataWriter> writer;
+    for (const bool big : {false, true})
+        for (const int compressor : {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB})
+            for (const bool base64 : {false, true}) {
+                SCOPED_TRACE(std::string(big ? "big" : "little") + "-endian, compressor " +
+                             std::to_string(compressor));
+                if (big)
+                    writer->SetByteOrderToBigEndian();
+                else
+                    writer->SetByteOrderToLittleEndian();
+                writer->SetCompressorType(compressor);
+                writer->SetEncodeAppendedData(base64);
+                const auto file = folder_ / "a.vti";
+                expectType<unsigned char>(file, *writer, *image);
+                expectType<signed char>(file, *writer, *image);
+                expectType<unsigned short>(file, *writer, *image);
+                expectType<short>(file, *writer, *image);
+                expectType<unsigned int>(file, *writer, *image);
+                expectType<int>(file, *writer, *image);
+                expectType<unsigned long>(file, *writer, *image);
+                expectType<long>(file, *writer, *image);
+                expectType<float>(file, *writer, *image);
+                expectType<double>(file, *writer, *image);
+            }
 }
 
 } // namespace
