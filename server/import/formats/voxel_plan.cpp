@@ -4,6 +4,7 @@
 #include "import/formats/segment_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -28,9 +29,53 @@ namespace {
 
 constexpr std::size_t kSlabBytes = 1U << 20;
 
+template <typename T>
+T swapped(T value) {
+    if constexpr (sizeof(T) == 2) return __builtin_bswap16(value);
+    if constexpr (sizeof(T) == 4) return __builtin_bswap32(value);
+    if constexpr (sizeof(T) == 8) return __builtin_bswap64(value);
+}
+
+template <typename T>
+void swapEach(std::span<std::byte> bytes) {
+    // Blocks of a fixed size become vector instructions.
+    constexpr std::size_t perBlock = 64 / sizeof(T);
+    std::array<T, perBlock> block;
+    const auto blocks = bytes.size() / sizeof(block);
+    auto* at = bytes.data();
+    for (std::size_t i = 0; i < blocks; ++i, at += sizeof(block)) {
+        std::memcpy(block.data(), at, sizeof(block));
+        for (auto& value : block)
+            value = swapped(value);
+        std::memcpy(at, block.data(), sizeof(block));
+    }
+    for (auto rest = bytes.size() % sizeof(block); rest >= sizeof(T); rest -= sizeof(T), at += sizeof(T)) {
+        T value;
+        std::memcpy(&value, at, sizeof value);
+        value = swapped(value);
+        std::memcpy(at, &value, sizeof value);
+    }
+}
+
+/// Calls `body` with an integer of as many bytes as a value has.
+template <typename Body>
+void visitWidth(std::size_t valueBytes, const Body& body) {
+    switch (valueBytes) {
+    case 1:
+        return body(std::uint8_t{});
+    case 2:
+        return body(std::uint16_t{});
+    case 4:
+        return body(std::uint32_t{});
+    default:
+        return body(std::uint64_t{});
+    }
+}
+
 void swapBytes(std::span<std::byte> values, std::size_t valueBytes) {
-    for (std::size_t at = 0; at + valueBytes <= values.size(); at += valueBytes)
-        std::reverse(values.data() + at, values.data() + at + valueBytes);
+    visitWidth(valueBytes, [&]<typename T>(T) {
+        if constexpr (sizeof(T) > 1) swapEach<T>(values);
+    });
 }
 
 /// Copies interleaved voxels into one array per component, from voxel `first` on.
@@ -38,12 +83,14 @@ void deinterleave(std::span<const std::byte> voxels, std::size_t valueBytes, std
                   std::vector<std::vector<std::byte>>& arrays) {
     const auto stride = valueBytes * arrays.size();
     const auto count = voxels.size() / stride;
-    for (std::size_t component = 0; component < arrays.size(); ++component) {
-        const auto* from = voxels.data() + component * valueBytes;
-        auto* to = arrays[component].data() + first * valueBytes;
-        for (std::size_t voxel = 0; voxel < count; ++voxel, from += stride, to += valueBytes)
-            std::memcpy(to, from, valueBytes);
-    }
+    visitWidth(valueBytes, [&]<typename T>(T) {
+        for (std::size_t component = 0; component < arrays.size(); ++component) {
+            const auto* from = voxels.data() + component * sizeof(T);
+            auto* to = arrays[component].data() + first * sizeof(T);
+            for (std::size_t voxel = 0; voxel < count; ++voxel, from += stride, to += sizeof(T))
+                std::memcpy(to, from, sizeof(T));
+        }
+    });
 }
 
 std::string bytesText(std::uint64_t bytes) { return std::to_string(bytes) + " bytes"; }

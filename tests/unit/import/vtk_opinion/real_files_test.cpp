@@ -191,6 +191,7 @@ TEST(RealFilesOfOtherKinds, EndInASentence) {
         if (!entry.is_regular_file()) continue;
         const auto path = fs::relative(entry.path(), kData);
         if (volumes.erase(path.string()) != 0 || isPartOrText(path)) continue;
+        if (path.extension() == ".vtm") continue; // patches: amr_test.cpp
         EXPECT_THROW((void)loadAny(entry.path()), Error) << path;
         ++refused;
     }
