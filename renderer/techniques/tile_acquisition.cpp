@@ -18,12 +18,16 @@ struct Part {
     VolumeKey key;
     TexelForm form;
     SamplesUse use = SamplesUse::Drawing;
+    /// Of categories: coarser levels hold means, and the mean of two labels is a third one. So nothing stands
+    /// in for their level, neither while it is brought in nor where it does not fit.
+    bool exactLevel = false;
 };
 
 Part drawnPart(const TileSpec& tile, int level) {
     return {{tile.dataset, tile.field, tile.step, level},
             {tile.floatTexels, marchesRays(tile)},
-            SamplesUse::Drawing};
+            SamplesUse::Drawing,
+            tile.categories};
 }
 
 std::optional<Part> clipPart(const TileSpec& tile, int level) {
@@ -45,7 +49,8 @@ Part layerPart(const TileSpec& tile, std::size_t i, int level) {
     const auto& layer = tile.layers.volumes[i];
     return {{layer.dataset, layer.field, layer.step, level},
             {layer.floatTexels, marchesRays(tile)},
-            SamplesUse::Drawing};
+            SamplesUse::Drawing,
+            layer.categories};
 }
 
 /// One of the levels, and the bytes of what it stands for.
@@ -69,6 +74,7 @@ VolumeLease acquireSmallLevel(ResidencyManager& residency, const Part& part) {
 /// \param awaited  set when the level itself is on its way
 VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& awaited) {
     if (auto exact = residency.acquireResident(part.key, part.form, part.use)) return std::move(*exact);
+    if (part.exactLevel) return residency.acquire(part.key, part.form, part.use);
     const auto atHand = [&] {
         VolumeKey key = part.key;
         if (const auto level = residency.nearestResidentLevel(part.key, part.form)) key.level = *level;
@@ -111,7 +117,9 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
             // One volume read in two roles is one texture.
             std::uint64_t bytes = residency.bytesOf(part->key, part->form);
             if (gradients) bytes += residency.gradientBytesOf(part->key);
-            parts.push_back({&level, residency.describe(part->key.dataset)->levels() - 1, bytes});
+            const int coarsest =
+                part->exactLevel ? part->key.level : residency.describe(part->key.dataset)->levels() - 1;
+            parts.push_back({&level, coarsest, bytes});
         };
         add(drawnPart(tile, levels.volume), levels.volume,
             wantsGradientTexture(tile, residency.workarounds()));
@@ -125,9 +133,9 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
         if (sum <= residency.budgetBytes()) return levels;
         std::erase_if(parts, [](const LevelBytes& part) { return *part.level >= part.coarsest; });
         if (parts.empty()) {
-            throw LimitExceeded("the coarsest levels that this picture needs take " + byteText(sum),
-                                "the texture budget is " + byteText(residency.budgetBytes()),
-                                "raise --texture-budget")
+            throw LimitExceeded(
+                "the coarsest levels that this picture can be drawn from take " + byteText(sum),
+                "the texture budget is " + byteText(residency.budgetBytes()), "raise --texture-budget")
                 .withField("texture-budget");
         }
         ++*std::max_element(parts.begin(), parts.end(), [](const LevelBytes& a, const LevelBytes& b) {

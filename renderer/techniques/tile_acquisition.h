@@ -12,8 +12,8 @@ namespace voxsheet {
 [[nodiscard]] TileLevels askedLevels(const TileSpec& tile);
 
 /// The finest levels, from those that the tile asks for on, of which all that the tile needs fits the texture
-/// budget together: what takes most is made coarser first. Throws LimitExceeded if not even the coarsest ones
-/// fit, NotFound as ResidencyManager::acquire.
+/// budget together: what takes most is made coarser first, but for categories, which have no coarser levels.
+/// Throws LimitExceeded if not even the coarsest ones fit, NotFound as ResidencyManager::acquire.
 [[nodiscard]] TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec& tile);
 
 [[nodiscard]] bool isTileResident(const ResidencyManager& residency, const TileSpec& tile,
@@ -25,7 +25,8 @@ namespace voxsheet {
                                                        const DerivedTextureBuilder& buildGradients);
 
 /// What comes nearest to these levels and is resident; of a volume of which nothing is, a small level is
-/// brought in at once. What is missing is queued. Throws as ResidencyManager::acquire.
+/// brought in at once, and of categories their own one. What is missing is queued. Throws as
+/// ResidencyManager::acquire.
 [[nodiscard]] TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
                                             const TileLevels& levels,
                                             const DerivedTextureBuilder& buildGradients);

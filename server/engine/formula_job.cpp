@@ -15,6 +15,8 @@ namespace voxsheet::engine {
 
 namespace {
 
+/// Of what is stored: 2 keeps the inputs' quantity.
+const std::string kVersion = "2 ";
 constexpr long kSlabSamples = 1L << 20; ///< per input: 8 MiB of doubles
 
 int slabSlices(const glm::ivec3& dims) {
@@ -34,13 +36,16 @@ DatasetMeta resultMeta(const FormulaTask& task, const std::string& key) {
     meta.anatomical = first.anatomical;
     meta.crystal = first.crystal;
     meta.times = {first.times.at(static_cast<std::size_t>(task.inputs.front().step))};
-    std::vector<std::string> units;
+    std::vector<ValueMeaning> meanings;
     for (const FormulaInput& input : task.inputs) {
-        units.push_back(input.meta->fields.at(static_cast<std::size_t>(input.field)).unit);
+        const FieldMeta& field = input.meta->fields.at(static_cast<std::size_t>(input.field));
+        meanings.push_back({field.quantity, field.unit});
     }
+    const ValueMeaning meaning = formulaMeaning(task.plan, meanings);
     FieldMeta field;
     field.name = "result";
-    field.unit = formulaUnit(task.plan, units);
+    field.quantity = meaning.quantity;
+    field.unit = meaning.unit;
     field.storedType = ScalarType::F32;
     field.steps.resize(1);
     meta.fields.push_back(std::move(field));
@@ -75,6 +80,51 @@ std::vector<std::byte> computeSamples(const FormulaTask& task, const VolumeProvi
     return result;
 }
 
+/// A quantity's or unit's word where the plan keeps it, else "".
+std::string keptWord(const sheet::FormulaPlan& plan, const std::vector<std::string>& inputs) {
+    std::vector<std::optional<std::string>> words; // of each step, where it has one
+    std::vector<bool> pure;
+    for (const sheet::PlanStep& step : plan.steps) {
+        std::optional<std::string> word;
+        bool isPure = false;
+        const auto a = static_cast<std::size_t>(std::max(step.a, 0));
+        const auto b = static_cast<std::size_t>(std::max(step.b, 0));
+        switch (step.op) {
+        case sheet::FormulaOp::Input:
+            if (!inputs.at(a).empty()) word = inputs[a];
+            break;
+        case sheet::FormulaOp::Constant:
+            isPure = true;
+            break;
+        case sheet::FormulaOp::Negate:
+        case sheet::FormulaOp::Abs:
+            word = words[a];
+            isPure = pure[a];
+            break;
+        case sheet::FormulaOp::Add:
+        case sheet::FormulaOp::Subtract:
+            // "density + 1" is read as a number of the same unit.
+            isPure = pure[a] && pure[b];
+            if (pure[b] || words[a] == words[b])
+                word = words[a];
+            else if (pure[a])
+                word = words[b];
+            break;
+        case sheet::FormulaOp::Multiply:
+            isPure = pure[a] && pure[b];
+            if (pure[a] != pure[b]) word = pure[a] ? words[b] : words[a];
+            break;
+        case sheet::FormulaOp::Divide:
+            isPure = pure[a] && pure[b];
+            if (pure[b]) word = words[a];
+            break;
+        }
+        words.push_back(std::move(word));
+        pure.push_back(isPure);
+    }
+    return words.empty() ? std::string{} : words.back().value_or("");
+}
+
 } // namespace
 
 std::string formulaEntryKey(const FormulaTask& task) {
@@ -83,52 +133,17 @@ std::string formulaEntryKey(const FormulaTask& task) {
         keys.push_back(input.meta->key + "/" + std::to_string(input.field) + "/" +
                        std::to_string(input.step));
     }
-    return store::formulaKey(sheet::planCacheKey(task.plan, keys), keys);
+    return store::formulaKey(kVersion + sheet::planCacheKey(task.plan, keys), keys);
 }
 
-std::string formulaUnit(const sheet::FormulaPlan& plan, const std::vector<std::string>& inputUnits) {
-    // Per step: no unit known (nullopt), a pure number (""), or a unit.
-    std::vector<std::optional<std::string>> units;
-    std::vector<bool> pure;
-    for (const sheet::PlanStep& step : plan.steps) {
-        std::optional<std::string> unit;
-        bool isPure = false;
-        const auto a = static_cast<std::size_t>(std::max(step.a, 0));
-        const auto b = static_cast<std::size_t>(std::max(step.b, 0));
-        switch (step.op) {
-        case sheet::FormulaOp::Input:
-            if (!inputUnits.at(a).empty()) unit = inputUnits[a];
-            break;
-        case sheet::FormulaOp::Constant:
-            isPure = true;
-            break;
-        case sheet::FormulaOp::Negate:
-        case sheet::FormulaOp::Abs:
-            unit = units[a];
-            isPure = pure[a];
-            break;
-        case sheet::FormulaOp::Add:
-        case sheet::FormulaOp::Subtract:
-            // "density + 1" is read as one of the same unit.
-            isPure = pure[a] && pure[b];
-            if (pure[b] || units[a] == units[b])
-                unit = units[a];
-            else if (pure[a])
-                unit = units[b];
-            break;
-        case sheet::FormulaOp::Multiply:
-            isPure = pure[a] && pure[b];
-            if (pure[a] != pure[b]) unit = pure[a] ? units[b] : units[a];
-            break;
-        case sheet::FormulaOp::Divide:
-            isPure = pure[a] && pure[b];
-            if (pure[b]) unit = units[a];
-            break;
-        }
-        units.push_back(std::move(unit));
-        pure.push_back(isPure);
+ValueMeaning formulaMeaning(const sheet::FormulaPlan& plan, const std::vector<ValueMeaning>& inputs) {
+    std::vector<std::string> quantities;
+    std::vector<std::string> units;
+    for (const ValueMeaning& input : inputs) {
+        quantities.push_back(input.quantity);
+        units.push_back(input.unit);
     }
-    return units.empty() ? std::string{} : units.back().value_or("");
+    return {keptWord(plan, quantities), keptWord(plan, units)};
 }
 
 std::uint64_t formulaMemoryBytes(const FormulaTask& task) {

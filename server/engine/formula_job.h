@@ -28,10 +28,18 @@ struct FormulaTask {
 /// Store key of the result: the same plan over the same arrays in the same geometry has the same.
 [[nodiscard]] std::string formulaEntryKey(const FormulaTask& task);
 
-/// Unit of the result: kept by sums, differences, signs and pure factors of one unit; empty for anything
-/// else.
-[[nodiscard]] std::string formulaUnit(const sheet::FormulaPlan& plan,
-                                      const std::vector<std::string>& inputUnits);
+/// What values mean: the words of FieldMeta.
+struct ValueMeaning {
+    std::string quantity;
+    std::string unit;
+
+    bool operator==(const ValueMeaning&) const = default;
+};
+
+/// Of the result. Quantity and unit, each for itself, are kept by sums and differences of arrays that agree
+/// in it, by signs and by pure factors; empty for anything else.
+[[nodiscard]] ValueMeaning formulaMeaning(const sheet::FormulaPlan& plan,
+                                          const std::vector<ValueMeaning>& inputs);
 
 /// Bytes of memory that computeFormula needs at its peak.
 [[nodiscard]] std::uint64_t formulaMemoryBytes(const FormulaTask& task);

@@ -100,6 +100,33 @@ TEST_F(FrameResidency, ATileIsDrawnFromASmallLevelUntilItsOwnIsThere) {
     EXPECT_EQ(whole.rgba8, draw(thread, large, LevelChoice::Exact).rgba8);
 }
 
+TEST_F(FrameResidency, NothingStandsInForLabels) {
+    // Labels 1 and 3 in turn: every mean of neighbours is a label 2 that is nowhere.
+    addVolume(*provider_, "labels", glm::ivec3(2 * kDim), ScalarType::U8,
+              [](int x, int y, int z) { return 1.0 + 2.0 * ((x + y + z) % 2); });
+    TileSpec labels = frontTile("labels", 2 * kDim, 4.0, kPixels);
+    labels.technique = Technique::Plane;
+    labels.categories = true;
+    TileSpec painted = frontTile(nameOf(0), kDim, 255.0, kPixels);
+    painted.technique = Technique::Plane;
+    VolumeLayer layer{"labels", 0, 0, 0, labels.transfer};
+    layer.categories = true;
+    painted.layers.volumes = {layer};
+    for (const TileSpec& each : {labels, painted}) {
+        RenderThread patient(provider_, {});
+        const auto whole = draw(patient, each, LevelChoice::Exact);
+        ASSERT_EQ(whole.error, "");
+        RenderThread thread(provider_, {});
+        EXPECT_EQ(framesUntilWhole(thread, each), 1);
+        RenderThread fresh(provider_, {});
+        EXPECT_EQ(draw(fresh, each, LevelChoice::AtHand).rgba8, whole.rgba8);
+    }
+    // A budget with room for their level 1 alone gives no picture of it.
+    RenderThread tight(provider_, budget(kBytes));
+    for (const LevelChoice levels : {LevelChoice::WithinBudget, LevelChoice::AtHand})
+        EXPECT_EQ(draw(tight, labels, levels).errorKind, ErrorKind::LimitExceeded);
+}
+
 TEST_F(FrameResidency, LightWithoutItsGradientTextureStandsInToo) {
     RenderThread thread(provider_, {});
     const auto exact = draw(thread, tile(0, true), LevelChoice::Exact);

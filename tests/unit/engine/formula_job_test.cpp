@@ -94,20 +94,26 @@ TEST_F(FormulaJob, CancellingLeavesNothingInTheStore) {
     EXPECT_EQ(store->open(formulaEntryKey(task())), nullptr);
 }
 
-TEST(FormulaUnit, SumsKeepTheUnitAndProductsLoseIt) {
+TEST(FormulaMeaning, SumsKeepQuantityAndUnitAndProductsLoseThem) {
+    const ValueMeaning potential{"local potential", "eV"};
+    const ValueMeaning energy{"energy", "eV"};
+    const ValueMeaning temperature{"temperature", "K"};
+    const ValueMeaning unknown{};
     sheet::FormulaPlan plan = difference();
-    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "eV");
-    EXPECT_EQ(formulaUnit(plan, {"eV", "K"}), "");
+    EXPECT_EQ(formulaMeaning(plan, {potential, potential}), potential);
+    EXPECT_EQ(formulaMeaning(plan, {potential, energy}), (ValueMeaning{"", "eV"}));
+    EXPECT_EQ(formulaMeaning(plan, {potential, temperature}), unknown);
+    EXPECT_EQ(formulaMeaning(plan, {potential, unknown}), unknown);
     plan.steps[2].op = FormulaOp::Multiply;
-    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "");
+    EXPECT_EQ(formulaMeaning(plan, {potential, potential}), unknown);
     plan.steps[2].op = FormulaOp::Divide;
-    EXPECT_EQ(formulaUnit(plan, {"eV", "eV"}), "");
+    EXPECT_EQ(formulaMeaning(plan, {potential, potential}), unknown);
     // abs(2 * B)
     plan.steps = {{FormulaOp::Constant, -1, -1, 2.0},
                   {FormulaOp::Input, 0},
                   {FormulaOp::Multiply, 0, 1},
                   {FormulaOp::Abs, 2}};
-    EXPECT_EQ(formulaUnit(plan, {"eV", "K"}), "eV");
+    EXPECT_EQ(formulaMeaning(plan, {potential, temperature}), potential);
 }
 
 } // namespace
