@@ -6,14 +6,12 @@
 #include "import/mesh/mesh_reader.h"
 #include "import/tiff/tiff_reader.h"
 #include "import/vtk_legacy/legacy_vtk_reader.h"
+#include "scratch_folder.h"
 #include "unit/import/sample_files.h"
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <stdexcept>
 
 namespace voxsheet::fuzz {
 
@@ -21,40 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace import;
-
-/// A folder in memory where there is one, removed at the end of the program.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        const fs::path memory = "/dev/shm";
-        std::error_code error;
-        const auto base = fs::is_directory(memory, error) ? memory : fs::temp_directory_path();
-        auto pattern = (base / "voxsheet-fuzz-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr)
-            throw std::runtime_error("no folder for the fuzzer's files");
-        path_ = pattern;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-    void write(const std::string& name, std::string_view bytes) const {
-        std::ofstream out(path_ / name, std::ios::binary);
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    }
-
-private:
-    fs::path path_;
-};
-
-const ScratchFolder& scratch() {
-    static const ScratchFolder folder;
-    return folder;
-}
 
 const SourceReader& readerOf(const std::string& format) {
     static const auto readers = [] {
@@ -104,19 +68,19 @@ std::string formatOf(const fs::path& path) {
 
 std::vector<FuzzTarget> formatTargets() {
     std::map<std::string, FuzzTarget> targets;
-    for (const auto& sample : testing::allSamples(scratch().path())) {
+    for (const auto& sample : testing::allSamples(scratchFolder().path())) {
         // Data files stay beside what the fuzzer writes: a mutated header may still find them.
         for (const auto& [name, bytes] : sample.beside)
-            scratch().write(name, bytes);
-        scratch().write(sample.name, sample.bytes);
-        const auto format = formatOf(scratch().path() / sample.name);
+            scratchFolder().write(name, bytes);
+        scratchFolder().write(sample.name, sample.bytes);
+        const auto format = formatOf(scratchFolder().path() / sample.name);
         auto& target = targets[format];
         target.name = format;
         target.seeds.push_back(sample.bytes);
         const auto fileName = "input" + fs::path(sample.name).extension().string();
         target.run = [&reader = readerOf(format), fileName](std::string_view bytes) {
-            scratch().write(fileName, bytes);
-            readFile(reader, scratch().path() / fileName);
+            scratchFolder().write(fileName, bytes);
+            readFile(reader, scratchFolder().path() / fileName);
         };
     }
     std::vector<FuzzTarget> all;

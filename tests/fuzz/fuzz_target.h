@@ -21,7 +21,9 @@ struct FuzzTarget {
 [[nodiscard]] std::vector<FuzzTarget> formatTargets();
 /// JSON documents, formulas, style values and requests.
 [[nodiscard]] std::vector<FuzzTarget> textTargets();
-/// Both.
+/// Parsers that stand before or beside a reader: tables of labels, headers of VTK's XML files.
+[[nodiscard]] std::vector<FuzzTarget> parserTargets();
+/// All of them.
 [[nodiscard]] std::vector<FuzzTarget> allTargets();
 
 /// Throws std::logic_error: a parser gave something that its header excludes.

@@ -204,8 +204,8 @@ std::vector<FuzzTarget> textTargets() {
 
 std::vector<FuzzTarget> allTargets() {
     auto all = formatTargets();
-    for (auto& target : textTargets())
-        all.push_back(std::move(target));
+    for (auto&& more : {parserTargets(), textTargets()})
+        all.insert(all.end(), more.begin(), more.end());
     return all;
 }
 

@@ -5,8 +5,8 @@
 #include "import/formats/input_file.h"
 #include "import/formats/patch_resampling.h"
 #include "import/formats/voxel_plan.h"
-#include "import/vtk/amr_header.h"
 #include "import/vtk/vti_reader.h"
+#include "import/vtk_xml/amr_header.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 #include "import/formats/field_names.h"
 #include "import/formats/rectilinear_axes.h"
 #include "import/formats/voxel_plan.h"
-#include "import/vtk/vti_header.h"
 #include "import/vtk/vtk_errors.h"
 #include "import/vtk_legacy/image_fields.h"
+#include "import/vtk_xml/vti_header.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

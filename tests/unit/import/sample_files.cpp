@@ -72,12 +72,26 @@ std::string niftiBytes(int version, bool single) {
     return single ? header.with(bytesOf(values(), version == 2)) : header.header();
 }
 
+/// With a table of labels in an extension of the header.
+std::string niftiWithLabels() {
+    auto xml =
+        "<CaretExtension><VolumeInformation Index=\"0\"><LabelTable><Label Key=\"1\" Red=\"1\" Green=\"0\" "
+        "Blue=\"0.5\">spleen</Label></LabelTable></VolumeInformation></CaretExtension>"s;
+    xml.resize((xml.size() + 8 + 15) / 16 * 16 - 8);
+    NiftiBytes header(1, false, {5, 6, 7}, 4);
+    header.setSform({1, 0, 0, 4, 0, 2, 0, 5, 0, 0, 3, 6});
+    header.set<float>(108, static_cast<float>(352 + 8 + xml.size()));
+    const std::vector<std::int32_t> head{static_cast<std::int32_t>(xml.size()) + 8, 30};
+    return header.header() + "\1\0\0\0"s + bytesOf(head) + xml + bytesOf(values());
+}
+
 void addNifti(std::vector<SampleFile>& samples) {
     for (const int version : {1, 2}) {
         const auto file = niftiBytes(version, true);
         samples.push_back({"v" + std::to_string(version) + ".nii", file});
         samples.push_back({"v" + std::to_string(version) + ".nii.gz", gzipped(file)});
     }
+    samples.push_back({"labels.nii", niftiWithLabels()});
 }
 
 void addCrystals(std::vector<SampleFile>& samples) {

@@ -1,4 +1,4 @@
-#include "import/vtk/amr_header.h"
+#include "import/vtk_xml/amr_header.h"
 
 #include "base/errors.h"
 #include "import/formats/number_text.h"

@@ -5,7 +5,7 @@
 //                                                                       in base64: lengths and blocks encoded
 //                                                                       apart
 #include "base/errors.h"
-#include "import/vtk/vti_header.h"
+#include "import/vtk_xml/vti_header.h"
 
 #include <algorithm>
 #include <array>

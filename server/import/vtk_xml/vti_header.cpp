@@ -1,4 +1,4 @@
-#include "import/vtk/vti_header.h"
+#include "import/vtk_xml/vti_header.h"
 
 #include "base/errors.h"
 #include "import/formats/geometry.h"
