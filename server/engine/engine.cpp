@@ -6,6 +6,7 @@
 #include "engine/engine_implementation.h"
 #include "engine/sample_reader.h"
 #include "engine/sheet_image.h"
+#include "import/client/import_options_json.h"
 #include "sheet/dataset_names.h"
 
 #include <algorithm>
@@ -46,6 +47,8 @@ Engine::~Engine() = default;
 
 std::vector<std::string> Engine::importDatasets(const std::vector<ImportRequest>& requests,
                                                 const ImportLayout& layout) {
+    for (const auto& request : requests) // before anything is named, placed or started
+        (void)import::importOptionsFromJson(request.options);
     std::vector<ImportRequest> sorted = requests;
     std::stable_sort(sorted.begin(), sorted.end(), [](const ImportRequest& a, const ImportRequest& b) {
         return !a.files.empty() && !b.files.empty() &&

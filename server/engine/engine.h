@@ -197,8 +197,8 @@ public:
     // --- datasets ---
     /// Starts imports in the background (a job each); returns the names given. A request with the name, files
     /// and options of a dataset that is there reads the files again if they have changed. Throws InvalidInput
-    /// if a path lies outside the roots, NotFound if it does not exist, Conflict if the name is taken by
-    /// another source.
+    /// if options are wrong (field options.MEMBER) or a path lies outside the roots, NotFound if it does not
+    /// exist, Conflict if the name is taken by another source.
     std::vector<std::string> importDatasets(const std::vector<ImportRequest>& requests,
                                             const ImportLayout& layout = {});
     /// Stores the bytes as a source in uploadDir under `fileName` (its last path component) and imports it.
