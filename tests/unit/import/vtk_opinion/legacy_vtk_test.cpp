@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -43,6 +44,10 @@ protected:
         set.GetPointData()->SetScalars(scalars);
         set.GetPointData()->SetVectors(vectors);
         set.GetPointData()->AddArray(four);
+        vtkNew<vtkDoubleArray> time; // belongs to the whole, as simulations write it
+        time->SetName("TimeValue");
+        time->InsertNextValue(0.25);
+        set.GetFieldData()->AddArray(time);
         vtkNew<vtkFloatArray> cells;
         cells->SetName("of cells");
         for (int i = 0; i < 4 * 3 * 2; ++i)

@@ -4,6 +4,7 @@
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -39,6 +40,10 @@ TEST_F(VtiByVtk, EveryCompressorAndModeGivesTheSameVolume) {
         vectors->InsertNextTuple3(along.back(), -1.5, 1e-3);
     }
     image->GetPointData()->AddArray(vectors);
+    vtkNew<vtkDoubleArray> time; // belongs to the whole, as simulations write it
+    time->SetName("TimeValue");
+    time->InsertNextValue(0.25);
+    image->GetFieldData()->AddArray(time);
 
     vtkNew<vtkXMLImageDataWriter> writer;
     writer->SetInputData(image);
