@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -30,6 +31,15 @@ std::string joined(const nlohmann::json& list, const char* separator) {
     return text;
 }
 
+/// "104: liver, spleen, left kidney, …"
+std::string labelsText(const nlohmann::json& labels) {
+    constexpr std::size_t shown = 8;
+    std::string text = std::to_string(labels.size()) + ":";
+    for (std::size_t i = 0; i < std::min(shown, labels.size()); ++i)
+        text += (i == 0 ? " " : ", ") + labels[i]["name"].get<std::string>();
+    return text + (labels.size() > shown ? ", …" : "");
+}
+
 void printText(const std::string& file, const nlohmann::json& info) {
     std::printf("%s\n", file.c_str());
     const auto row = [](const char* name, const std::string& value) {
@@ -45,6 +55,7 @@ void printText(const std::string& file, const nlohmann::json& info) {
     for (const auto& field : info["fields"])
         row("field", field["name"].get<std::string>() + ": " + joined(field["range"], " to ") + " " +
                          field["unit"].get<std::string>());
+    if (info.contains("labels")) row("labels", labelsText(info["labels"]));
     if (info.contains("atoms")) row("atoms", std::to_string(info["atoms"].size()));
     for (const auto& note : info["notes"])
         row("note", note.get<std::string>());
