@@ -1,6 +1,7 @@
 #include "import/vtk/vti_reader.h"
 
 #include "base/errors.h"
+#include "import/formats/byte_stream.h"
 #include "import/formats/field_names.h"
 #include "import/formats/rectilinear_axes.h"
 #include "import/formats/voxel_plan.h"
@@ -13,10 +14,12 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDummyController.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 
@@ -30,6 +33,7 @@ namespace voxsheet::import {
 namespace {
 
 constexpr const char* kFormat = "vti";
+constexpr double kSlabBytes = 4U << 20;
 
 struct ArrayPlan {
     VtiArray array;
@@ -81,6 +85,43 @@ public:
         vtkDataSetAttributes* const data =
             ofCells ? static_cast<vtkDataSetAttributes*>(set->GetCellData()) : set->GetPointData();
         return data->GetArray(wanted.name.c_str());
+    }
+
+    /// Decodes an array slab by slab and keeps nothing.
+    void prove(const VtiArray& wanted, bool ofCells) {
+        selectNothing();
+        auto* const selection =
+            ofCells ? reader_->GetCellDataArraySelection() : reader_->GetPointDataArraySelection();
+        selection->EnableArray(wanted.name.c_str());
+        std::array<int, 6> whole{};
+        reader_->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole.data());
+        const std::size_t axis = whole[5] > whole[4] ? 2 : 1; // the slowest that has an extent
+        const int last = whole[2 * axis + 1];
+        double bytesPerSlice = static_cast<double>(scalarBytes(wanted.type)) * wanted.components;
+        for (std::size_t other = 0; other < axis; ++other)
+            bytesPerSlice *= whole[2 * other + 1] - whole[2 * other] + 1;
+        const int slices = std::max(1, static_cast<int>(kSlabBytes / std::max(1.0, bytesPerSlice)));
+        for (int first = whole[2 * axis];; first += slices) {
+            auto slab = whole;
+            slab[2 * axis] = first;
+            slab[2 * axis + 1] = std::min(first + slices, last);
+            reader_->UpdateExtent(slab.data());
+            check("reading");
+            auto* const set = reader_->GetOutputAsDataSet();
+            vtkDataSetAttributes* const data =
+                ofCells ? static_cast<vtkDataSetAttributes*>(set->GetCellData()) : set->GetPointData();
+            const auto* const array = data->GetArray(wanted.name.c_str());
+            const auto expected = ofCells ? set->GetNumberOfCells() : set->GetNumberOfPoints();
+            if (!array || array->GetNumberOfTuples() != expected) damaged(wanted);
+            if (slab[2 * axis + 1] >= last) return;
+        }
+    }
+
+    [[nodiscard]] std::uint64_t bytes() const { return InputFile(path_).bytes(); }
+
+    [[noreturn]] void damaged(const VtiArray& array) const {
+        throw InvalidInput(path_, "VTK could not read all of the array '" + printable(array.name) + "'",
+                           "the file is damaged: copy or write it again");
     }
 
     /// Of a rectilinear grid.
@@ -186,15 +227,16 @@ void refuseSameName(const InputFile& file, const VtiPlan& plan, const VtiArray& 
 
 /// One array's components as fields.
 template <typename Sink>
-void readArray(VtkImageFile& file, const std::string& path, const VtiPlan& plan, const ArrayPlan& array,
-               const Sink& sink) {
+void readArray(VtkImageFile& file, const VtiPlan& plan, const ArrayPlan& array, const Sink& sink) {
     const auto tuples = static_cast<std::size_t>(sampleCount(plan.dims));
     const auto& wanted = array.array;
+    const auto bytes = tuples * static_cast<std::size_t>(wanted.components) * scalarBytes(wanted.type);
+    // Before memory is taken for what a small file promises.
+    if (promisesMuch(bytes, file.bytes())) file.prove(wanted, plan.ofCells);
     auto* const values = file.read(wanted, plan.ofCells);
     if (!values || static_cast<std::size_t>(values->GetNumberOfTuples()) != tuples ||
         values->GetNumberOfComponents() != wanted.components || !isOfType(*values, wanted.type))
-        throw InvalidInput(path, "VTK could not read all of the array '" + printable(wanted.name) + "'",
-                           "the file is damaged: copy or write it again");
+        file.damaged(wanted);
     for (int c = 0; c < wanted.components; ++c)
         sink(array.firstField + c, [&] {
             auto samples = component(*values, c, tuples, scalarBytes(wanted.type));
@@ -224,7 +266,7 @@ public:
         const auto path = header.files.front().string();
         VtkImageFile file(path, plan.rectilinear);
         for (std::size_t i = 0; i < plan.arrays.size(); ++i) {
-            readArray(file, path, plan, plan.arrays[i],
+            readArray(file, plan, plan.arrays[i],
                       [&](int field, const auto& samples) { sink(field, 0, samples()); });
             if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(plan.arrays.size()));
         }
@@ -287,7 +329,7 @@ std::vector<std::byte> readVtiField(const SourceHeader& header, int field) {
     std::vector<std::byte> result;
     for (const auto& array : plan.arrays)
         if (field >= array.firstField && field < array.firstField + array.array.components)
-            readArray(file, path, plan, array, [&](int read, const auto& samples) {
+            readArray(file, plan, array, [&](int read, const auto& samples) {
                 if (read == field) result = samples();
             });
     return result;

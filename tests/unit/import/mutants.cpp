@@ -225,6 +225,27 @@ Mutant bomb(const std::string& what, const std::string& name, std::string bytes)
     return {what, {name, std::move(bytes), 0, {}}, false};
 }
 
+/// 120 blocks of 1 MiB, of whose last one half is missing.
+Mutant vtiBomb() {
+    constexpr std::uint32_t blocks = 120;
+    const auto block = zlibbed(std::string(1U << 20, '\0'));
+    std::vector<std::uint32_t> lengths{blocks, 1U << 20, 0};
+    std::string data;
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+        const auto part = i + 1 < blocks ? block : block.substr(0, block.size() / 2);
+        lengths.push_back(static_cast<std::uint32_t>(part.size()));
+        data += part;
+    }
+    return bomb(
+        "cut off at its end", "blocks.vti",
+        "<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\" "
+        "compressor=\"vtkZLibDataCompressor\">\n<ImageData WholeExtent=\"0 1023 0 1023 0 119\" Origin=\"0 0 "
+        "0\" Spacing=\"1 1 1\">\n<Piece Extent=\"0 1023 0 1023 0 119\"><PointData><DataArray "
+        "type=\"UInt8\" Name=\"v\" format=\"appended\" offset=\"0\"/></PointData></Piece></ImageData>\n"
+        "<AppendedData encoding=\"raw\">\n_" +
+            bytesOf(lengths) + data + "\n</AppendedData>\n</VTKFile>\n");
+}
+
 } // namespace
 
 std::vector<Mutant> truncations(const SampleFile& sample) {
@@ -313,6 +334,7 @@ std::vector<Mutant> bombs() {
         bomb("an endless line", "line.cube.gz", gzipBomb("x\n", std::string(1U << 20, 'x'), megabytes)));
     all.push_back(bomb("too few values", "few.cube.gz", gzipBomb(cube, ones, 312)));
     all.push_back(bomb("blanks", "blanks.cube.gz", gzipBomb(cube, blanks, megabytes)));
+    all.push_back(vtiBomb());
     for (auto&& each : tiffBombs(std::filesystem::temp_directory_path()))
         all.push_back(std::move(each));
     return all;

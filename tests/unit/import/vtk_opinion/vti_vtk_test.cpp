@@ -125,5 +125,28 @@ TEST_F(VtiByVtk, CellsOfEveryTypeInBothByteOrders) {
             }
 }
 
+TEST_F(VtiByVtk, WhatCompressesWellIsReadAllTheSame) {
+    // Decoded once for nothing, slab by slab, before memory is taken; then as a whole.
+    const glm::ivec3 dims{300, 400, 300};
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(dims.x, dims.y, dims.z);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+    auto* const voxels = static_cast<unsigned char*>(image->GetScalarPointer());
+    const auto count = static_cast<std::size_t>(dims.x) * static_cast<std::size_t>(dims.y * dims.z);
+    std::fill_n(voxels, count, static_cast<unsigned char>(7));
+    voxels[count - 1] = 9;
+    voxels[count / 2] = 11;
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writer->SetInputData(image);
+    for (const int compressor : {vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4}) {
+        const auto file = folder_ / "a.vti";
+        writer->SetFileName(file.c_str());
+        writer->SetCompressorType(compressor);
+        ASSERT_EQ(writer->Write(), 1);
+        ASSERT_LT(fs::file_size(file), count / 40) << "not small enough for this test";
+        EXPECT_EQ(loadAny(file).values<unsigned char>(), std::vector<unsigned char>(voxels, voxels + count));
+    }
+}
+
 } // namespace
 } // namespace voxsheet::import::testing
