@@ -64,7 +64,7 @@ struct RangeChoice {
     bool diverging = false;
 };
 
-RangeChoice chooseRange(const sheet::RangeStyle& range, const ColourMap* map, const ValueSummary& summary) {
+RangeChoice rangeByMode(const sheet::RangeStyle& range, const ColourMap* map, const ValueSummary& summary) {
     const bool signedData = opensDiverging(summary);
     switch (range.mode) {
     case sheet::RangeMode::Own: {
@@ -88,6 +88,12 @@ RangeChoice chooseRange(const sheet::RangeStyle& range, const ColourMap* map, co
     if (map != nullptr && map->kind == ColourMapKind::Ct)
         return {{map->window.first, map->window.second}, false};
     return {defaultWindow(summary), signedData};
+}
+
+RangeChoice chooseRange(const sheet::RangeStyle& range, const ColourMap* map, const ValueSummary& summary) {
+    const RangeChoice choice = rangeByMode(range, map, summary);
+    if (!range.symmetric || range.mode == sheet::RangeMode::Fixed) return choice;
+    return {symmetricWindow(choice.window), true};
 }
 
 Technique drawnTechnique(sheet::Technique technique) {

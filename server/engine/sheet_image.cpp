@@ -4,6 +4,7 @@
 #include "engine/canvas.h"
 #include "engine/colour_bar_painter.h"
 #include "engine/crosshair.h"
+#include "engine/orientation_marks.h"
 #include "engine/tile_identity.h"
 
 #include <algorithm>
@@ -218,6 +219,11 @@ private:
             if (cell.annotations == sheet::Annotations::All) {
                 drawCrosshair(canvas, cell, area);
                 const Palette colours = paletteFor(cell.background);
+                paintOrientation(canvas,
+                                 {glm::dmat3(cell.tile.spec->camera.viewFromWorld),
+                                  cell.look->meta->anatomical, layout_.fontPixels, colours.text,
+                                  cell.background},
+                                 area);
                 paintColourBar(canvas, *cell.look, area, layout_.fontPixels * 4 / 5,
                                {colours.text, colours.quiet, cell.background});
             }

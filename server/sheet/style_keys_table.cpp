@@ -123,6 +123,10 @@ void addRange(std::vector<KeySpec>& keys) {
                              "or 99.5 percent.",
                              "number")),
              "range.mode", bounded));
+    keys.push_back(when(choice("range.symmetric", {"off", "on"}, "off", group,
+                               "Whether the range is widened to reach as far below 0 as above it, so that "
+                               "differences can share a range with zero in its middle."),
+                        "range.mode", {"auto", "own", "shared", "percentile"}));
     keys.push_back(choice(
         "range.scale", {"linear", "log", "symlog"}, "linear", group,
         "Positions over the range by value, by its logarithm, or by its logarithm on both sides of 0."));

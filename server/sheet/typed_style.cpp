@@ -239,6 +239,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.range.min = read.find<double>("range.min");
     style.range.max = read.find<double>("range.max");
     style.range.scale = read.choice<ValueScale>("range.scale", kScales);
+    style.range.symmetric = read.choice<int>("range.symmetric", kSwitch) == 1;
     style.sampleDistanceVoxels = read.get<double>("sampling.distance");
     style.preIntegrated = read.choice<int>("sampling.transfer", kTransferSampling) == 1;
     style.quality = read.choice<Quality>("quality", kQualities);

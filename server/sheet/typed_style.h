@@ -66,6 +66,7 @@ struct RangeStyle {
     std::optional<double> min; ///< Fixed: a value; Percentile: 0 to 100; not set: the data's, or 0.5 %
     std::optional<double> max; ///< Fixed: a value; Percentile: 0 to 100; not set: the data's, or 99.5 %
     ValueScale scale = ValueScale::Linear;
+    bool symmetric = false; ///< widened to reach as far below 0 as above; not if Fixed
     bool operator==(const RangeStyle&) const = default;
 };
 

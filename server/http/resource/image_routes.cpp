@@ -95,6 +95,21 @@ Response imageAnswer(const stream::EncodedImage& image) {
     return response;
 }
 
+/// As in a picture of the sheet: with title, colour bar, crosshair and orientation.
+Response annotatedCell(const ApiContext& context, const Request& request,
+                       const stream::CellImageRequest& wanted) {
+    static_cast<void>(context.tiles.cellIdentity(wanted)); // A cell without a picture is an error here.
+    engine::SheetImageRequest alone;
+    alone.sheet = wanted.sheet;
+    alone.range = sheet::AddressRange{wanted.cell, wanted.cell};
+    alone.sizePixels = wanted.quality.sizePixels;
+    alone.view = wanted.view;
+    const auto image = context.tiles.sheetImage(alone, wanted.encoding);
+    const auto tag = quoted(image->identity);
+    if (image->final && noneMatchHolds(request, tag)) return notModified(tag);
+    return imageAnswer(*image);
+}
+
 Response cellImage(const ApiContext& context, const Request& request) {
     stream::CellImageRequest wanted;
     const auto workbook = context.engine.snapshot();
@@ -102,7 +117,9 @@ Response cellImage(const ApiContext& context, const Request& request) {
     wanted.cell = sheet::parseAddress(request.param("cell"));
     wanted.encoding = encodingFor(request);
     wanted.quality.sizePixels = sizeOf(request.query, {512, 512});
-    wanted.view.request = styleFromQuery(request.query, context.engine.keys(), {"width", "height"});
+    wanted.view.request =
+        styleFromQuery(request.query, context.engine.keys(), {"width", "height", "annotate"});
+    if (request.query.boolean("annotate").value_or(false)) return annotatedCell(context, request, wanted);
     if (request.headers.find("If-None-Match")) {
         const auto tag = quoted(context.tiles.cellIdentity(wanted));
         if (noneMatchHolds(request, tag)) return notModified(tag);
@@ -133,13 +150,17 @@ const std::vector<ParamDoc> kSizeDocs{{"width", "integer", "pixels, 1 to 8192"},
 } // namespace
 
 void addImageRoutes(Router& router, const ApiContext& context) {
+    auto cellDocs = kSizeDocs;
+    cellDocs.push_back({"annotate", "boolean",
+                        "with title, colour bar, crosshair and orientation, as in a picture of the sheet "
+                        "(default false)"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/image.{format}",
          .handler = [&context](Request& request) { return cellImage(context, request); },
          .summary =
              "One cell as png, jpg or webp; any style key may be set in the query for this picture alone",
-         .query = kSizeDocs,
+         .query = cellDocs,
          .anyStyleKey = true,
          .pool = Pool::Render,
          .answerType = "image/png",

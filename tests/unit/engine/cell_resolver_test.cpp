@@ -83,6 +83,21 @@ TEST_F(CellResolver, EveryRangeModeGivesItsOwnRange) {
     EXPECT_NEAR(percent.function.high, 229.5, 2);
 }
 
+TEST_F(CellResolver, AnyRangeThatDataGiveCanBeMadeSymmetric) {
+    for (const char* mode : {"auto", "own", "shared", "percentile"}) {
+        const auto transfer = resolve({{"range.mode", mode}, {"range.symmetric", "on"}}, density);
+        EXPECT_GT(transfer.function.high, 200.0) << mode;
+        EXPECT_EQ(transfer.function.low, -transfer.function.high) << mode;
+        EXPECT_EQ(transfer.map->name, "cool-warm") << mode;
+        EXPECT_EQ(evaluateTransfer(transfer.function, 0.0).w, 0.0) << mode;
+    }
+    // What was typed in stays.
+    const auto fixed = resolve(
+        {{"range.mode", "fixed"}, {"range.min", -1}, {"range.max", 3}, {"range.symmetric", "on"}}, density);
+    EXPECT_EQ(fixed.function.low, -1);
+    EXPECT_EQ(fixed.function.high, 3);
+}
+
 TEST_F(CellResolver, AnEmptyFixedRangeNamesTheKeyAtFault) {
     try {
         static_cast<void>(resolve({{"range.mode", "fixed"}, {"range.min", 300}}, density));

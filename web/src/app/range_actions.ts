@@ -11,7 +11,7 @@ import type { StyleActions } from "./style_actions";
 import type { TileSizes } from "./tile_sizes";
 
 /** Of the chosen layer: every cell by its own values, or all that share by all of theirs. */
-export type RangeRule = "own" | "shared" | "symmetric";
+export type RangeRule = "own" | "shared" | "symmetric" | "shared symmetric";
 
 function fixedRange(range: ValueRange): StylePatch {
     return { "range.mode": "fixed", "range.min": range.low, "range.max": range.high };
@@ -27,7 +27,8 @@ export class RangeActions {
     ) {}
 
     async follow(rule: RangeRule): Promise<void> {
-        await this.styles.set({ "range.mode": rule, "range.min": null, "range.max": null });
+        const both = rule === "shared symmetric";
+        await this.styles.set({ "range.mode": both ? "shared" : rule, "range.symmetric": both ? "on" : null, "range.min": null, "range.max": null });
     }
 
     async setTo(range: ValueRange): Promise<void> {

@@ -62,6 +62,9 @@ export function RangeTools({ cell }: { cell: CellState }) {
                 {button("visible", `From the smallest to the largest value that the picture of ${cell.cell} shows now`, () => ranges.fitTo(cell.cell, "visible"))}
                 {steps > 1 && button("over time", "From the smallest to the largest value of all time steps, each cell by its own", () => ranges.follow("own"))}
                 {button("linked cells", "One range for all these cells that show the same quantity in the same unit", () => ranges.follow("shared"))}
+                {button("linked, symmetric", "One range for all these cells that show the same quantity in the same unit, the same on both sides of zero", () =>
+                    ranges.follow("shared symmetric"),
+                )}
                 {button("symmetric", "The same on both sides of zero, each cell by its own largest magnitude", () => ranges.follow("symmetric"))}
             </div>
             {range && <CustomRange range={range} />}

@@ -28,7 +28,8 @@ export function LevelBadge({ cell }: { cell: string }) {
     return (
         <Menu class="level-badge" label={`Level of detail of ${cell}: ${level}, ${why}`} items={items}>
             <span data-level={level}>
-                {pinned !== null && <Pin size={10} aria-hidden="true" />} level {level}
+                {pinned !== null && <Pin size={10} aria-hidden="true" />} <i class="level-word">level </i>
+                {level}
             </span>
         </Menu>
     );
