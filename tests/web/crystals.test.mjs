@@ -51,8 +51,8 @@ after(async () => {
 const valueOf = async (cell, key) => (await styleOf(page, cell, key)).value;
 const bars = () => page.evaluate((names) => names.map((name) => window.voxsheet.store.get().book.bars[name]), cells);
 
-async function type(key, text) {
-    const field = page.locator(`#key-${key.replaceAll(".", "-")}`);
+async function type(label, text) {
+    const field = page.getByLabel(label, { exact: true });
     await field.fill(text);
     await field.press("Enter");
 }
@@ -96,7 +96,8 @@ test("planes of Miller indices face their normal, and the wheel steps from latti
     await waitForOrigin(page, "plane.axis", "sheet");
     await settled(page, cells);
     const first = await look(page, "A1");
-    await type("plane.hkl", "1,1,0");
+    assert.deepEqual(await valueOf("A1", "plane.hkl"), [1, 1, 1]);
+    await type("plane.hkl z", "0");
     await waitForOrigin(page, "plane.hkl", "sheet");
     await settled(page, cells);
     const oblique = await look(page, "A1");
