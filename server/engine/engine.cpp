@@ -1,5 +1,6 @@
 #include "engine/engine.h"
 
+#include "engine/atom_probe.h"
 #include "engine/child_importer.h"
 #include "engine/colour_bar.h"
 #include "engine/colour_map.h"
@@ -8,6 +9,7 @@
 #include "engine/sheet_image.h"
 #include "import/client/import_options_json.h"
 #include "sheet/dataset_names.h"
+#include "volume/elements.h"
 
 #include <algorithm>
 
@@ -37,6 +39,11 @@ const char* hitName(HitKind kind) {
         break;
     }
     return "middle";
+}
+
+std::optional<AtomHit> atomOnRay(const TileSpec& tile, const DatasetMeta& meta, const Ray& ray) {
+    if (!meta.crystal || !tile.crystal.atoms) return std::nullopt;
+    return atomUnderRay(tile, crystalSites(*meta.crystal, meta.grid, tile.periodic, tile.crystal.bonds), ray);
 }
 
 } // namespace
@@ -227,11 +234,23 @@ std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const s
         sheet::resolveStyle(keys(), now->sheets[index], cell, {view.all, view.cells, view.request})
             .style.probeOpacity;
     const auto hit = implementation_->probes.underPixel(*tile.spec, meta, pixel, opacity);
-    if (!hit) return {};
-    auto values = implementation_->probes.atWorld(*now, index, view, *contents, hit->world,
+    const Ray ray = pixelRay(tile.spec->camera, pixel, sizePixels);
+    auto atom = atomOnRay(*tile.spec, meta, ray);
+    const bool flat = tile.spec->technique == Technique::Plane;
+    // A volume's middle is a place to ask for, nothing that is in front of anything.
+    if (atom && hit && !flat && hit->kind != HitKind::Middle && hit->depth < atom->depth) atom.reset();
+    if (!hit && !atom) return {};
+    glm::dvec3 world = hit ? hit->world : atom->centreWorld;
+    if (atom && !flat) world = atom->centreWorld;
+    auto values = implementation_->probes.atWorld(*now, index, view, *contents, world,
                                                   implementation_->layersOf(*now, index, view, contents));
     for (ProbeValue& value : values) {
         if (value.cell != cell) continue;
+        if (atom) {
+            value.hit = "atom";
+            value.atom = elementOf(atom->atomicNumber).symbol;
+            continue;
+        }
         value.hit = hitName(hit->kind);
         value.isovalue = hit->isovalue;
     }

@@ -152,10 +152,12 @@ struct ProbeValue {
     std::string unit;
     std::string note;
     /// Of the cell whose picture was probed: what lies under the pixel. "isosurface", "face" (of the box, a
-    /// cut, or a clip object), "sample", "middle" (nothing is opaque enough: the point nearest to the middle
-    /// of the box). Empty for other cells and for points of the world.
+    /// cut, or a clip object), "atom", "sample", "middle" (nothing is opaque enough: the point nearest to the
+    /// middle of the box). Empty for other cells and for points of the world.
     std::string hit;
     std::optional<double> isovalue; ///< of the surface, when an isosurface was hit
+    std::string
+        atom; ///< symbol of the element, when `hit` is "atom"; world: its centre, or in a plane the point
     std::vector<LayerValue>
         layers; ///< of the fused view, in the order of the style's `layers`, or the overlay
 };

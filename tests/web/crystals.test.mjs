@@ -90,6 +90,29 @@ test("the crystal group shows atoms and the cell in every picture of a crystal",
     for (const [i, cell] of cells.entries()) assert.notEqual((await look(page, cell)).hash, atoms[i].hash, `${cell} shows the unit cell`);
 });
 
+test("the pointer names the atom under it", async () => {
+    // Tellurium alone is left in the middle of the vacancy's cell, which the shift moved there from its corner in z.
+    const picture = page.locator('[data-picture-of="B1"]');
+    const box = await picture.boundingBox();
+    let seen = "";
+    for (let y = 0.2; y < 0.9 && !/^Te/.test(seen); y += 0.04) {
+        for (let x = 0.3; x < 0.75 && !/^Te/.test(seen); x += 0.04) {
+            const found = await page.evaluate(
+                async ([px, py, width, height]) =>
+                    (await (await fetch(`api/v1/sheets/Sheet1/probe?cell=B1&px=${px}&py=${py}&width=${width}&height=${height}`)).json()).values,
+                [x * box.width, y * box.height, Math.round(box.width), Math.round(box.height)],
+            );
+            if (found.find(({ cell, atom }) => cell === "B1" && atom === "Te")) {
+                await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+                await page.mouse.move(box.x + x * box.width + 1, box.y + y * box.height);
+                await picture.locator(".probe-chip").waitFor();
+                seen = await picture.locator(".probe-chip").textContent();
+            }
+        }
+    }
+    assert.match(seen, /^Te · -?[−\d]/);
+});
+
 test("planes of Miller indices face their normal, and the wheel steps from lattice plane to lattice plane", async () => {
     await page.locator("#key-technique").selectOption("plane");
     await page.locator("#key-plane-axis").selectOption("hkl");

@@ -44,6 +44,7 @@ nlohmann::json valueJson(const engine::ProbeValue& probe) {
             {"interpolated", numberOrNull(probe.interpolated)},
             {"index", {probe.index.x, probe.index.y, probe.index.z}},
             {"label", labelJson(probe.label)},
+            {"atom", labelJson(probe.atom)},
             {"unit", probe.unit},
             {"note", probe.note},
             {"hit", probe.hit.empty() ? nlohmann::json(nullptr) : nlohmann::json(probe.hit)},
@@ -143,13 +144,15 @@ void addProbeRoutes(Router& router, const ApiContext& context) {
                    {"stream", "string", "use the view of this stream's page"}},
          .anyStyleKey = true,
          .pool = Pool::Render,
-         .answerDoc = "{world, values: [{cell, value, interpolated, index, label, unit, note, hit, isovalue, "
-                      "layers: [{name, "
-                      "value, interpolated, label, unit, note}]}]}; label: what a label map calls the value, "
-                      "else null; "
-                      "layers: of the fused view, or the overlay; hit: of "
-                      "the cell whose picture was probed, \"isosurface\", \"face\", \"sample\" or \"middle\" "
-                      "(nothing opaque enough), else null"});
+         .answerDoc =
+             "{world, values: [{cell, value, interpolated, index, label, atom, unit, note, hit, isovalue, "
+             "layers: [{name, "
+             "value, interpolated, label, unit, note}]}]}; label: what a label map calls the value, "
+             "else null; "
+             "layers: of the fused view, or the overlay; hit: of "
+             "the cell whose picture was probed, \"isosurface\", \"face\", \"atom\" (whose element is "
+             "`atom`), \"sample\" or \"middle\" "
+             "(nothing opaque enough), else null"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/sheets/{sheet}/cells/{cell}/range",

@@ -249,6 +249,8 @@ export interface ProbeValue {
     value: number | null;
     /** What a label map calls the value. */
     label?: string | null;
+    /** Symbol of the atom that is seen there. */
+    atom?: string | null;
     index?: number[];
     unit?: string;
     note?: string;

@@ -76,6 +76,6 @@ function probedText({ value, label, unit, note }: Probed): string {
 }
 
 /** A cell's own value, then those of the volumes that are blended into its picture. */
-export function probeText(found: Probed & { layers?: (Probed & { name: string })[] }): string {
-    return [probedText(found), ...(found.layers ?? []).map((layer) => `${layer.name}: ${probedText(layer)}`)].join(" · ");
+export function probeText(found: Probed & { atom?: string | null; layers?: (Probed & { name: string })[] }): string {
+    return [...(found.atom ? [found.atom] : []), probedText(found), ...(found.layers ?? []).map((layer) => `${layer.name}: ${probedText(layer)}`)].join(" · ");
 }
