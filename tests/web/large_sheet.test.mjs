@@ -109,3 +109,38 @@ test("arrow keys reach cells that were out of view", async () => {
     });
     assert.deepEqual(page.problems, []);
 });
+
+test("in small tiles no badge covers a cell's name, and bars make room for handles", async () => {
+    await page.evaluate(async () => {
+        const body = JSON.stringify({ level: 1, "clip.planes": [[0, -1, 0, 0.5]] });
+        await fetch("api/v1/sheets/Sheet1/style", { method: "PATCH", body, headers: { "Content-Type": "application/json" } });
+    });
+    await waitUntil(page, () => Object.values(window.voxsheet.store.get().tiles).some(({ level, final }) => level === 1 && final));
+    const places = () =>
+        page.evaluate(() =>
+            [...document.querySelectorAll(".tile")].map((tile) => {
+                const box = (found) => found?.getBoundingClientRect().toJSON();
+                const shown = (selector) => [...tile.querySelectorAll(selector)].some((each) => getComputedStyle(each).display !== "none");
+                return {
+                    name: box(tile.querySelector(".title-button b")),
+                    title: box(tile.querySelector(".title-button")),
+                    badge: box(tile.querySelector(".level-badge")),
+                    bar: shown(".colour-bar"),
+                    handles: shown(".clip-handles"),
+                };
+            }),
+        );
+    const cover = ({ name, title, badge }) => badge && (name.right > title.right + 0.5 || name.right > badge.left + 0.5);
+    await waitUntil(page, () => document.querySelectorAll(".level-badge").length > 3);
+    const before = await places();
+    assert.deepEqual(before.filter(cover), []);
+    await page.getByRole("button", { name: /clip handles/i }).first().click();
+    await waitUntil(page, () => document.querySelectorAll(".clip-handles").length > 3);
+    const after = await places();
+    assert.ok(after.some(({ handles }) => handles));
+    assert.deepEqual(after.filter(({ bar, handles }) => bar && handles), []);
+    // Small enough that the pictures stand alone.
+    for (let i = 0; i < 3; ++i) await page.keyboard.press("Shift+Z");
+    await page.waitForTimeout(300);
+    assert.deepEqual((await places()).filter(cover), []);
+});
