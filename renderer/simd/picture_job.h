@@ -89,6 +89,7 @@ struct PictureJob {
     float sampleDistanceVoxels = 0.5F;
     int chunkSamples = 1;
     LightNumbers light;
+    bool adaptive = false;        ///< ray casting: marks hold strides (stages/sample_strides.h)
     bool pairsShareLight = false; ///< ray casting: two samples, half a voxel apart at most, have one normal
     float unitsPerRadius = 1.0F;  ///< ray casting
     int layerCount = 0;           ///< ray casting

@@ -18,6 +18,7 @@ struct Caster {
     Path path;
     Float unitsPerDepth;
     Light light;
+    Float stride = num(1.0F); ///< stretches that have one sample together in the lanes' chunks
 
     Float chunkBegin(Float chunk) const {
         return hn::MulAdd(chunk * num(static_cast<float>(job.chunkSamples)), path.spacing, path.span.begin);
@@ -87,13 +88,21 @@ struct Caster {
 
     // From chunks with their middles there to the next that may show something, in chunks; 0: they may
     // themselves.
-    HWY_INLINE Float chunksAhead(const Vec3& middle) const {
+    HWY_INLINE Float chunksAhead(const Vec3& middle) {
         const float voxels = static_cast<float>(job.chunkSamples) * job.sampleDistanceVoxels;
+        if (job.adaptive) return chunksAheadAndStride(middle, voxels);
         Float ahead = stretchesAhead(job.cells, middle, voxels);
         if (job.layerCount == 0) return ahead;
         const Vec3 chunk = num(static_cast<float>(job.chunkSamples)) * path.spacing * path.ray.direction;
         for (int i = 0; i < job.layerCount && any(ahead > zero()); ++i)
             ahead = hn::Min(ahead, layerStretchesAhead(job.layers[i], middle, chunk));
+        return ahead;
+    }
+
+    HWY_INLINE Float chunksAheadAndStride(const Vec3& middle, float voxels) {
+        const Int marks = marksAt(job.cells, middle);
+        const Float ahead = stretchesAhead(marks, num(job.cells.cellSamples / voxels));
+        stride = pick(ahead == zero(), strideOf(marks), stride);
         return ahead;
     }
 
@@ -115,8 +124,8 @@ struct Caster {
         return Boundary{};
     }
 
-    // What the whole stretch from `depth` on shows; `begin` becomes its end.
-    HWY_INLINE Entry stretchEntry(Float depth, Boundary& begin) const {
+    // What the `length` from `depth` on shows, a whole stretch or several; `begin` becomes its end.
+    HWY_INLINE Entry stretchEntry(Float depth, Float length, Boundary& begin) const {
         if constexpr (preIntegrated) {
             const Boundary end = boundaryAt(depth + path.spacing);
             const Entry mean =
@@ -124,21 +133,21 @@ struct Caster {
             begin = end;
             return mean;
         } else {
-            const Float middle = hn::MulAdd(num(0.5F), path.spacing, depth);
+            const Float middle = hn::MulAdd(num(0.5F), length, depth);
             return classify(job.table, trilinear<format>(job.volume, indexAt(path.ray, middle)));
         }
     }
 
-    // Two stretches that share the normal between them.
-    HWY_INLINE void takeLitPair(Float depth, Mask first, Mask second, Boundary& begin) {
-        const Entry entry = stretchEntry(depth, begin);
-        const Entry other = stretchEntry(depth + path.spacing, begin);
-        const Float through = throughOf(entry, hn::IfThenElseZero(first, path.spacing));
-        const Float otherThrough = throughOf(other, hn::IfThenElseZero(second, path.spacing));
+    // Two samples that share the normal between them: of `first` and `second` of depth, which may be nothing.
+    HWY_INLINE void takeLitPair(Float depth, Float first, Float second, Boundary& begin) {
+        const Entry entry = stretchEntry(depth, first, begin);
+        const Entry other = stretchEntry(depth + first, second, begin);
+        const Float through = throughOf(entry, first);
+        const Float otherThrough = throughOf(other, second);
         const Mask seen = through * otherThrough < num(1.0F);
         Reflection reflection{num(1.0F), zero()};
         if (any(seen)) {
-            const Float between = hn::MulAdd(pick(second, num(1.0F), num(0.5F)), path.spacing, depth);
+            const Float between = hn::MulAdd(pick(second > zero(), num(1.0F), num(0.5F)), first, depth);
             const Vec3 normal = normalAt(between, indexAt(path.ray, between), seen, none());
             reflection = pick(seen, reflectionOf(job.light, normal, path.ray.toEye), reflection);
         }
@@ -146,16 +155,23 @@ struct Caster {
         add(reflected(reflection, other.rgb), otherThrough);
     }
 
+    // The stretches of the chunk that begins with the `first`.
+    HWY_INLINE Float countIn(Mask active, Float first, Float stretches) const {
+        return pick(active, hn::Min(stretches - first, num(static_cast<float>(job.chunkSamples))), zero());
+    }
+
+    // Of a stride where so many stretches are left.
+    HWY_INLINE Float depthOf(Float left) const {
+        return hn::Min(hn::Max(left, zero()), stride) * path.spacing;
+    }
+
     HWY_INLINE void takeWholeLit(Mask active, Float chunk, Float stretches) {
         const Float first = chunk * num(static_cast<float>(job.chunkSamples));
-        const Float count = pick(active, stretches - first, zero());
+        const Float count = countIn(active, first, stretches);
         Boundary begin = firstBoundary(chunkBegin(chunk));
-        for (int k = 0; k < job.chunkSamples; k += 2) {
-            const Float step = num(static_cast<float>(k));
-            const Mask counts = step < count;
-            if (!any(counts)) break;
+        for (Float step = zero(); any(step < count); step = hn::MulAdd(num(2.0F), stride, step)) {
             const Float depth = hn::MulAdd(first + step, path.spacing, path.span.begin);
-            takeLitPair(depth, counts, step + num(1.0F) < count, begin);
+            takeLitPair(depth, depthOf(count - step), depthOf(count - step - stride), begin);
         }
     }
 
@@ -168,7 +184,7 @@ struct Caster {
             const Mask counts = step < count;
             if (!any(counts)) break;
             const Float depth = hn::MulAdd(first + step, path.spacing, path.span.begin);
-            Entry entry = stretchEntry(depth, begin);
+            Entry entry = stretchEntry(depth, path.spacing, begin);
             const Mask seen = both(entry.a > zero(), counts);
             if (job.light.enabled && any(seen)) {
                 const Float middle = hn::MulAdd(num(0.5F), path.spacing, depth);
@@ -179,8 +195,19 @@ struct Caster {
         }
     }
 
+    HWY_INLINE void takeStrides(Mask active, Float chunk, Float stretches) {
+        const Float first = chunk * num(static_cast<float>(job.chunkSamples));
+        const Float count = countIn(active, first, stretches);
+        for (Float step = zero(); any(step < count); step = step + stride) {
+            const Float length = depthOf(count - step);
+            const Float begin = hn::MulAdd(first + step, path.spacing, path.span.begin);
+            takeSample(hn::MulAdd(num(0.5F), length, begin), length, none());
+        }
+    }
+
     HWY_INLINE void takeWhole(Mask active, Float chunk, Float stretches) {
         if (job.pairsShareLight) return takeWholeLit(active, chunk, stretches);
+        if (job.adaptive) return takeStrides(active, chunk, stretches);
         if constexpr (preIntegrated) return takeMeans(active, chunk, stretches);
         const Float first = chunk * num(static_cast<float>(job.chunkSamples));
         const Float count = pick(active, stretches - first, zero());

@@ -425,17 +425,31 @@ HWY_INLINE Int cellAt(const SampledCells& cells, const Vec3& position) {
     return x + (y + z * hn::Set(kI, cells.cells[1])) * hn::Set(kI, cells.cells[0]);
 }
 
+/// Marks of the cells at points, in the lowest byte.
+HWY_INLINE Int marksAt(const SampledCells& cells, const Vec3& position) {
+    HWY_ALIGN std::int32_t offsets[8];
+    hn::Store(cellAt(cells, position), kI, offsets);
+    return loadWords<0>(reinterpret_cast<const std::byte*>(cells.marks), offsets);
+}
+
+HWY_INLINE Float stretchesAhead(Int marks, Float stretchesPerCell) {
+    const Float distance = hn::ConvertTo(kF, hn::And(marks, hn::Set(kI, 0xF)));
+    const Float ahead = num(1.0F) + hn::Floor((distance - num(1.0F)) * stretchesPerCell);
+    return pick(distance == zero(), zero(), ahead);
+}
+
+/// How many samples one stands for.
+HWY_INLINE Float strideOf(Int marks) {
+    const Int exponent = hn::And(hn::ShiftRight<4>(marks), hn::Set(kI, 0xF));
+    return hn::BitCast(kF, hn::ShiftLeft<23>(exponent + hn::Set(kI, 127)));
+}
+
 /// From stretches with their middles there to the next that may show something, in stretches; 0: they may
 /// themselves.
 /// \param stretchesPerCell  width of a cell in stretches
 HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, Float stretchesPerCell) {
     if (cells.marks == nullptr) return zero();
-    HWY_ALIGN std::int32_t offsets[8];
-    hn::Store(cellAt(cells, middle), kI, offsets);
-    const Int words = loadWords<0>(reinterpret_cast<const std::byte*>(cells.marks), offsets);
-    const Float mark = hn::ConvertTo(kF, hn::And(words, hn::Set(kI, 0xFF)));
-    const Float ahead = num(1.0F) + hn::Floor((mark - num(1.0F)) * stretchesPerCell);
-    return pick(mark == zero(), zero(), ahead);
+    return stretchesAhead(marksAt(cells, middle), stretchesPerCell);
 }
 
 HWY_INLINE Float stretchesAhead(const SampledCells& cells, const Vec3& middle, float stretchVoxels) {

@@ -23,10 +23,32 @@ std::vector<std::uint8_t> distancesOf(const std::vector<std::uint8_t>& marks, co
     return emptyDistances(marks, CellLayout::of(volume.dims).cells, volume.meta->grid.periodic);
 }
 
+bool hasAbsentSamples(const ResidentVolume& volume) {
+    const auto& steps = volume.meta->fields.at(static_cast<std::size_t>(volume.field)).steps;
+    const auto step = static_cast<std::size_t>(volume.step);
+    return step >= steps.size() || steps[step].statistics.nanCount > 0;
+}
+
 std::vector<std::uint8_t> occupiedDistances(const TransferTable& table, const ResidentVolume& volume,
                                             int reachSamples) {
     return distancesOf(
         occupiedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, table, reachSamples), volume);
+}
+
+/// Of volumes with absent samples every stride is 1, for ranges do not tell where they are.
+std::vector<std::uint8_t> occupiedMarks(const TransferTable& table, const ResidentVolume& volume,
+                                        int reachSamples, const std::optional<StrideSettings>& strides) {
+    auto marks = occupiedDistances(table, volume, reachSamples);
+    if (!strides || hasAbsentSamples(volume)) return marks;
+    constexpr std::uint8_t most = 15;
+    auto fineness = strideExponents(*volume.minMax, table, *strides);
+    for (auto& exponent : fineness)
+        exponent = static_cast<std::uint8_t>(most - exponent);
+    fineness = largestOverBricks(std::move(fineness), *volume.minMax, volume.dims, volume.meta->grid.periodic,
+                                 reachSamples);
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        if (marks[i] == 0) marks[i] = static_cast<std::uint8_t>((most - fineness[i]) << kStrideShift);
+    return marks;
 }
 
 std::vector<std::uint8_t> crossedDistances(const std::vector<double>& values, const ResidentVolume& volume) {
@@ -68,33 +90,38 @@ bool EmptySpaceStage::Key::matches(const Key& other) const {
     if (rangesHash != other.rangesHash || dims != other.dims || periodic != other.periodic) return false;
     if (valueFromTexel != other.valueFromTexel) return false;
     if (reachSamples != other.reachSamples || values != other.values) return false;
+    if (strides != other.strides) return false;
     return table == other.table || (table && other.table && *table == *other.table);
 }
 
 EmptySpaceStage::Key EmptySpaceStage::keyOf(const ResidentVolume& volume,
                                             std::shared_ptr<const TransferTable> table,
-                                            std::vector<double> values, int reachSamples) {
+                                            std::vector<double> values, int reachSamples,
+                                            const std::optional<StrideSettings>& strides) {
     return {volume.rangesHash,
             volume.dims,
             volume.meta->grid.periodic,
             {volume.valueScale, volume.valueOffset},
             std::move(table),
             std::move(values),
-            reachSamples};
+            reachSamples,
+            strides};
 }
 
 const gpu::Texture& EmptySpaceStage::occupied(const std::shared_ptr<const TransferTable>& table,
-                                              const ResidentVolume& volume, int reachSamples) {
-    auto key = keyOf(volume, table, {}, reachSamples);
+                                              const ResidentVolume& volume, int reachSamples,
+                                              const std::optional<StrideSettings>& strides) {
+    auto key = keyOf(volume, table, {}, reachSamples, strides);
     const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    return insertDistances(std::move(key), volume, occupiedDistances(*table, volume, reachSamples));
+    return insertDistances(std::move(key), volume, occupiedMarks(*table, volume, reachSamples, strides));
 }
 
 void EmptySpaceStage::bindOccupied(const gpu::Program& program,
                                    const std::shared_ptr<const TransferTable>& table,
-                                   const ResidentVolume& volume, int reachSamples) {
-    bind(program, volume, occupied(table, volume, reachSamples));
+                                   const ResidentVolume& volume, int reachSamples,
+                                   const std::optional<StrideSettings>& strides) {
+    bind(program, volume, occupied(table, volume, reachSamples, strides));
 }
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
@@ -127,11 +154,12 @@ void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVol
 
 const EmptySpaceStage::HostCells&
 EmptySpaceStage::occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
-                                const ResidentVolume& volume, int reachSamples) {
-    auto key = keyOf(volume, table, {}, reachSamples);
+                                const ResidentVolume& volume, int reachSamples,
+                                const std::optional<StrideSettings>& strides) {
+    auto key = keyOf(volume, table, {}, reachSamples, strides);
     const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
-    return insertOnHost(std::move(key), {readable(occupiedDistances(*table, volume, reachSamples)), {}});
+    return insertOnHost(std::move(key), {readable(occupiedMarks(*table, volume, reachSamples, strides)), {}});
 }
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::crossedOnHost(const std::vector<double>& values,

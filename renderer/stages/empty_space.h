@@ -7,10 +7,12 @@
 #include "residency/residency_manager.h"
 #include "stages/occupancy.h"
 #include "stages/recent_cache.h"
+#include "stages/sample_strides.h"
 #include "volume/transfer_function.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace voxsheet {
@@ -28,10 +30,14 @@ public:
     /// What bindOccupied() binds, for a volume of the shader's own. The reference holds until more is asked
     /// for.
     const gpu::Texture& occupied(const std::shared_ptr<const TransferTable>& table,
-                                 const ResidentVolume& volume, int reachSamples);
+                                 const ResidentVolume& volume, int reachSamples,
+                                 const std::optional<StrideSettings>& strides = {});
     /// For compositing: cells are 0 where the table can show something, else emptyDistances().
+    /// \param strides  cells of 0 also hold strideExponents() of all within reach, the smallest, from bit
+    ///                 kStrideShift on
     void bindOccupied(const gpu::Program& program, const std::shared_ptr<const TransferTable>& table,
-                      const ResidentVolume& volume, int reachSamples);
+                      const ResidentVolume& volume, int reachSamples,
+                      const std::optional<StrideSettings>& strides = {});
     /// For isosurfaces: cells are 0 where one of the values may be crossed, else emptyDistances(). Of
     /// kShortReach.
     void bindCrossed(const gpu::Program& program, const std::vector<double>& values,
@@ -47,7 +53,8 @@ public:
         std::vector<float> largest;      ///< of MIP instead of marks
     };
     const HostCells& occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
-                                    const ResidentVolume& volume, int reachSamples);
+                                    const ResidentVolume& volume, int reachSamples,
+                                    const std::optional<StrideSettings>& strides = {});
     const HostCells& crossedOnHost(const std::vector<double>& values, const ResidentVolume& volume);
     const HostCells& largestOnHost(const ResidentVolume& volume);
 
@@ -61,11 +68,13 @@ private:
             table; ///< null: largest texels, or cells where `values` are crossed
         std::vector<double> values;
         int reachSamples = 0;
+        std::optional<StrideSettings> strides;
 
         [[nodiscard]] bool matches(const Key& other) const;
     };
     static Key keyOf(const ResidentVolume& volume, std::shared_ptr<const TransferTable> table,
-                     std::vector<double> values, int reachSamples);
+                     std::vector<double> values, int reachSamples,
+                     const std::optional<StrideSettings>& strides = {});
 
     const gpu::Texture& insertDistances(Key key, const ResidentVolume& volume,
                                         const std::vector<std::uint8_t>& distances);

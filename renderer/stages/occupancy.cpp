@@ -35,8 +35,8 @@ std::size_t offset(const glm::ivec3& size, int x, int y, int z) {
 
 /// Spreads one number per brick to cells: the largest over the bricks that the cell touches, axis by axis.
 template <typename T>
-std::vector<T> largestOverBricks(std::vector<T> values, glm::ivec3 size, const glm::ivec3& dims,
-                                 const glm::bvec3& periodic, int reachSamples) {
+std::vector<T> spreadOverCells(std::vector<T> values, glm::ivec3 size, const glm::ivec3& dims,
+                               const glm::bvec3& periodic, int reachSamples) {
     const auto layout = CellLayout::of(dims);
     for (int axis = 0; axis < 3; ++axis) {
         const auto touched = bricksOfCells(layout.cells[axis], layout.cellSamples, dims[axis], size[axis],
@@ -157,7 +157,13 @@ std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3
                    [&](const MinMaxGrid::Range& range) {
                        return counts.any(range) ? std::uint8_t{1} : std::uint8_t{0};
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
+    return largestOverBricks(std::move(bricks), grid, dims, periodic, reachSamples);
+}
+
+std::vector<std::uint8_t> largestOverBricks(std::vector<std::uint8_t> marks, const MinMaxGrid& grid,
+                                            const glm::ivec3& dims, const glm::bvec3& periodic,
+                                            int reachSamples) {
+    return spreadOverCells(std::move(marks), grid.bricks, dims, periodic, reachSamples);
 }
 
 std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
@@ -173,7 +179,7 @@ std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3&
                        });
                        return crossed ? std::uint8_t{1} : std::uint8_t{0};
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
+    return largestOverBricks(std::move(bricks), grid, dims, periodic, reachSamples);
 }
 
 std::vector<std::uint8_t> emptyDistances(const std::vector<std::uint8_t>& marks, const glm::ivec3& cells,
@@ -195,7 +201,7 @@ std::vector<float> largestInCells(const MinMaxGrid& grid, const glm::ivec3& dims
                        if (range.low > range.high) return -std::numeric_limits<float>::infinity();
                        return sign > 0.0F ? range.high : -range.low;
                    });
-    return largestOverBricks(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
+    return spreadOverCells(std::move(bricks), grid.bricks, dims, periodic, reachSamples);
 }
 
 } // namespace voxsheet

@@ -30,6 +30,11 @@ inline constexpr int kLongReach = 4;  ///< where each stretch is looked up
                                                       const glm::bvec3& periodic, const TransferTable& table,
                                                       int reachSamples);
 
+/// Of each cell the largest of the bricks' marks within reach, one mark per brick of the grid; x fastest.
+[[nodiscard]] std::vector<std::uint8_t> largestOverBricks(std::vector<std::uint8_t> marks,
+                                                          const MinMaxGrid& grid, const glm::ivec3& dims,
+                                                          const glm::bvec3& periodic, int reachSamples);
+
 /// 1 where one of `values` may be crossed within reach, else 0; x fastest. Conservative.
 [[nodiscard]] std::vector<std::uint8_t> crossedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                                      const glm::bvec3& periodic,

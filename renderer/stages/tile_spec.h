@@ -50,6 +50,7 @@ struct TileSpec {
     double unitLengthWorld = 1.0;                  ///< path length over which table opacities hold, > 0
     double sampleDistanceVoxels = 0.5; ///< distance of samples in voxels of the drawn level, (0, 64]
     Classification classification = Classification::AtSamples; ///< heeded where preIntegrates()
+    bool adaptiveSampling = false; ///< fewer samples where little changes; heeded where adaptsSampling()
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F}; ///< sRGB, not premultiplied; alpha 0 = transparent
     glm::ivec2 sizePixels{256};                   ///< [1, 8192] each
     PeriodicWindow periodic;                      ///< of the cell's own volume only
@@ -82,6 +83,12 @@ struct TileSpec {
 [[nodiscard]] inline bool preIntegrates(const TileSpec& tile) {
     return tile.technique == Technique::Raycast && tile.classification == Classification::PreIntegrated &&
            tile.layers.volumes.empty() && !tile.clip.object && !tile.categories;
+}
+
+/// True where samples are farther apart in parts of the volume that change little (stages/sample_strides.h).
+[[nodiscard]] inline bool adaptsSampling(const TileSpec& tile) {
+    return tile.technique == Technique::Raycast && tile.adaptiveSampling && tile.layers.volumes.empty() &&
+           !tile.clip.object && !tile.categories && !preIntegrates(tile);
 }
 
 /// Lit ray casting of one volume, with samples half a voxel apart at most: two samples have one normal

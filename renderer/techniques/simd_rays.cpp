@@ -5,6 +5,7 @@
 #include "stages/layer_stage.h"
 #include "stages/preintegration.h"
 #include "techniques/isosurface/surface_texels.h"
+#include "techniques/raycast/raycast.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
@@ -233,6 +234,8 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.opacityScale = opacity > 0.0F ? 1.0F / opacity : 0.0F;
     setLayers(job, stages, request);
     job.pairsShareLight = pairsShareLight(tile);
+    const auto strides = stages.skipEmptySpace ? strideSettings(tile, volume) : std::nullopt;
+    job.adaptive = strides.has_value();
     if (!stages.skipEmptySpace) return job;
     auto& emptySpace = stages.emptySpace;
     switch (tile.technique) {
@@ -244,7 +247,8 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
         job.cells = sampledCells(emptySpace.largestOnHost(volume), volume);
         break;
     default:
-        job.cells = sampledCells(emptySpace.occupiedOnHost(tile.transfer, volume, kShortReach), volume);
+        job.cells =
+            sampledCells(emptySpace.occupiedOnHost(tile.transfer, volume, kShortReach, strides), volume);
     }
     return job;
 }

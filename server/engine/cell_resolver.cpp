@@ -318,6 +318,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     spec.transfer = std::move(table);
     spec.unitLengthWorld = style.transfer.unitLengthWorld.value_or(meanVoxelEdgeWorld(meta.grid));
     spec.sampleDistanceVoxels = std::clamp(style.sampleDistanceVoxels * sampleDistanceFactor, 0.01, 64.0);
+    spec.adaptiveSampling = style.adaptiveSampling;
     if (style.preIntegrated) spec.classification = Classification::PreIntegrated;
     spec.background = glm::vec4(opaqueOf(style.background));
     spec.sizePixels = sizePixels;

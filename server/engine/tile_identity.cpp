@@ -220,6 +220,7 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
     addShading(collector, tile);
     collector.add(tile.categories ? 1.0 : 0.0);
     collector.add(preIntegrates(tile) ? 1.0 : 0.0);
+    collector.add(adaptsSampling(tile) ? 1.0 : 0.0);
     collector.add(static_cast<double>(tile.floatTexels));
     collector.add(tile.background);
     collector.add(tile.sizePixels.x);

@@ -142,6 +142,12 @@ void addPicture(std::vector<KeySpec>& keys) {
                "between the values at the ends of each stretch (pre-integrated), which does not miss sharp "
                "peaks. Volumes that are blended with others or cut by a clip object are sampled."),
         "technique", {"raycast"}));
+    keys.push_back(when(
+        choice("sampling.adaptive", {"off", "on"}, "on", group,
+               "Ray casting takes fewer samples than sampling.distance says, up to four voxels apart, where "
+               "the colours of a part of the volume change little. Not of volumes that are blended with "
+               "others or cut by a clip object, and not with means."),
+        "technique", {"raycast"}));
     keys.push_back(
         choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,
                "Level of detail of the picture at rest: every voxel, or every second, fourth or eighth."));

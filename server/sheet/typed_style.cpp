@@ -242,6 +242,7 @@ TypedStyle typedStyle(const ResolvedValues& values) {
     style.range.symmetric = read.choice<int>("range.symmetric", kSwitch) == 1;
     style.sampleDistanceVoxels = read.get<double>("sampling.distance");
     style.preIntegrated = read.choice<int>("sampling.transfer", kTransferSampling) == 1;
+    style.adaptiveSampling = read.choice<int>("sampling.adaptive", kSwitch) == 1;
     style.quality = read.choice<Quality>("quality", kQualities);
     if (const auto level = read.find<std::int64_t>("level")) style.level = static_cast<int>(*level);
     style.background = read.get<Colour>("background");

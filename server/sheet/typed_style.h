@@ -224,6 +224,7 @@ struct TypedStyle {
     RangeStyle range;
     double sampleDistanceVoxels = 0.5; ///< voxels of the drawn level
     bool preIntegrated = false;
+    bool adaptiveSampling = true;
     Quality quality = Quality::Full;
     std::optional<int> level; ///< of the live picture; not set: by policy
     Colour background;

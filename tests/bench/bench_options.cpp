@@ -28,6 +28,13 @@ ScalarType typeAfter(int count, char** arguments, int& index) {
     return *type;
 }
 
+bool samplingAfter(int count, char** arguments, int& index) {
+    const std::string word = index + 1 < count ? arguments[index + 1] : "";
+    if (word != "adaptive" && word != "even") throw InvalidInput("--sampling", "it is not adaptive or even");
+    ++index;
+    return word == "adaptive";
+}
+
 } // namespace
 
 std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, const std::string& usage) {
@@ -42,6 +49,7 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
                 "f32 (u8)\n"
                 "  --technique T  vr, sr, vc, ie or all: what looks inside, with and without light, at 128 "
                 "and 256 samples\n"
+                "  --sampling S   adaptive or even (adaptive)\n"
                 "  --only TEXT  cases with this in their names\n"
                 "  --json       one JSON object on stdout (always so)\n",
                 usage.c_str());
@@ -59,6 +67,8 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             options.type = typeAfter(count, arguments, i);
         else if (argument == "--technique" && i + 1 < count)
             options.techniques.emplace_back(arguments[++i]);
+        else if (argument == "--sampling")
+            options.adaptive = samplingAfter(count, arguments, i);
         else if (argument == "--only" && i + 1 < count)
             options.only = arguments[++i];
         else if (argument != "--json")

@@ -24,6 +24,7 @@ struct Sheet {
     int stride = 1; ///< of the pixels that are compared
     std::vector<fields::SampledField> volumes;
     std::shared_ptr<const TransferTable> table;
+    bool adaptive = false;
 };
 
 Sheet sheetOf(const VolumeBenchOptions& options) {
@@ -35,6 +36,7 @@ Sheet sheetOf(const VolumeBenchOptions& options) {
     const auto grid = fields::gridOf(fields::Geometry::Isotropic, sheet.samples);
     for (int i = 0; i < kCells; ++i)
         sheet.volumes.push_back(fields::sampleField(field, grid, options.type, "cell " + std::to_string(i)));
+    sheet.adaptive = options.adaptive;
     sheet.table = fields::filledTable(field.low, field.high);
     return sheet;
 }
@@ -45,6 +47,7 @@ std::vector<TileSpec> tilesOf(const Sheet& sheet, int frame) {
         const auto& meta = sheet.volumes[static_cast<std::size_t>(i)].meta;
         auto tile = fields::tileOf(meta.key, meta.grid, Technique::Raycast, sheet.pixels);
         tile.transfer = sheet.table;
+        tile.adaptiveSampling = sheet.adaptive;
         tile.unitLengthWorld = sheet.samples / 256.0;
         tile.camera = fields::cameraOf(meta.grid, Projection::Perspective,
                                        30.0 + 11.0 * i + kDegreesPerFrame * frame, 25.0);

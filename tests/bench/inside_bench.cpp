@@ -128,6 +128,7 @@ std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int sampl
         for (const bool lit : {false, true}) {
             auto tile = techniqueTile(technique, grid, samples, options.pixels);
             tile.shading.enabled = lit;
+            tile.adaptiveSampling = options.adaptive;
             // As the style's `auto`: a texture for volumes, six taps for isosurfaces.
             tile.shading.gradient =
                 tile.technique == Technique::Raycast ? GradientSource::Texture : GradientSource::OnTheFly;
@@ -140,6 +141,7 @@ std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int sampl
         }
     if (std::find(techniques.begin(), techniques.end(), "vr") != techniques.end()) {
         auto planes = volumeTile(grid, samples, options.pixels);
+        planes.adaptiveSampling = options.adaptive;
         planes.clip.planes = {throughCentre(grid, {1, 0, 0}), throughCentre(grid, {0, 1, 0}),
                               throughCentre(grid, {0, 0, 1})};
         cases.push_back({size + "vr clip 1/8 by planes", planes});

@@ -58,6 +58,7 @@ TileSpec VolumeScene::tile(Technique technique, int frame) const {
     const auto& grid = sampled_.meta.grid;
     auto tile = fields::tileOf(kDataset, grid, technique, options_.pixels);
     tile.transfer = table_;
+    tile.adaptiveSampling = options_.adaptive;
     // The material keeps its looks at every size of the volume: opacities hold over 1/256 of its edge.
     tile.unitLengthWorld = options_.samples / 256.0;
     tile.camera = fields::cameraOf(grid, Projection::Perspective, 30.0 + kDegreesPerFrame * frame, 25.0);
@@ -144,6 +145,53 @@ VolumeBenchCase runCase(RenderThread& thread, VolumeScene& scene, const std::str
     return result;
 }
 
+struct Drawn {
+    double ms = 0.0;
+    double cpuMs = 0.0;
+};
+
+Drawn timed(RenderThread& thread, const TileSpec& tile) {
+    const double before = processorMs();
+    const double ms = drawTile(thread, tile).wallMs;
+    return {ms, processorMs() - before};
+}
+
+/// Adaptive against even samples, frame by frame in turn.
+std::string compareSampling(RenderThread& thread, VolumeScene& scene, const std::string& name, bool lit,
+                            const VolumeBenchOptions& options) {
+    const auto tileOf = [&](int frame, bool adaptive) {
+        auto tile = scene.tile(Technique::Raycast, frame);
+        tile.shading.enabled = lit;
+        tile.adaptiveSampling = adaptive;
+        return tile;
+    };
+    const auto even = pictureOf(drawTile(thread, tileOf(0, false)).tiles[0]);
+    const auto adaptive = pictureOf(drawTile(thread, tileOf(0, true)).tiles[0]);
+    std::vector<double> evenMs, evenCpu, ms, cpu;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        const auto one = timed(thread, tileOf(frame, false));
+        const auto other = timed(thread, tileOf(frame, true));
+        evenMs.push_back(one.ms);
+        evenCpu.push_back(one.cpuMs);
+        ms.push_back(other.ms);
+        cpu.push_back(other.cpuMs);
+    }
+    std::vector<std::pair<std::string, std::string>> fields{
+        {"name", jsonString(name)},
+        {"ms", jsonNumber(median(ms))},
+        {"even_ms", jsonNumber(median(evenMs))},
+        {"cpu_ms", jsonNumber(median(cpu))},
+        {"even_cpu_ms", jsonNumber(median(evenCpu))},
+        {"ratio_cpu", jsonNumber(median(cpu) / median(evenCpu))},
+        {"psnr_to_even", jsonNumber(fields::difference(adaptive, even).psnr)},
+        {"p999_to_even", jsonNumber(fields::difference(adaptive, even).p999)}};
+    if (!lit) {
+        fields.emplace_back("psnr", jsonNumber(scene.distance(Technique::Raycast, adaptive).psnr));
+        fields.emplace_back("even_psnr", jsonNumber(scene.distance(Technique::Raycast, even).psnr));
+    }
+    return jsonObject(fields);
+}
+
 std::string jsonOf(const VolumeBenchCase& one) {
     return jsonObject({{"name", jsonString(one.name)},
                        {"ms", jsonNumber(one.ms)},
@@ -166,6 +214,14 @@ std::string volumeBench(const VolumeBenchOptions& options,
     renderOptions.device = options.device;
     RenderThread thread(provider, renderOptions);
     std::vector<std::string> cases;
+    for (auto* scene : {&sparse, &filled, &peaks})
+        for (const bool lit : {false, true}) {
+            const auto name = scene->name() + " raycast adaptive" + (lit ? " lit" : "");
+            progress(name);
+            if (name.find(options.only) != std::string::npos)
+                cases.push_back(compareSampling(thread, *scene, name, lit, options));
+        }
+    if (!options.only.empty()) return jsonObject({{"cases", jsonArray(cases)}});
     for (auto* scene : {&sparse, &filled})
         for (const auto technique : {Technique::Raycast, Technique::Slices, Technique::Mip}) {
             const auto name = scene->name() + " " + fields::nameOf(technique);

@@ -24,6 +24,7 @@ struct VolumeBenchOptions {
     /// Not empty: the bench of what looks inside (inside_bench.h) instead, of these out of vr, sr, vc, ie,
     /// all.
     std::vector<std::string> techniques;
+    bool adaptive = true;      ///< sampling, as the style key sampling.adaptive
     std::string only;          ///< of those, the cases whose name has this text in it
     bool samplesGiven = false; ///< else that bench takes 128 and 256 samples
 };

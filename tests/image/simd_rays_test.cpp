@@ -55,6 +55,7 @@ protected:
     TileSpec nextTile(const Grid& grid, int trial) {
         auto tile = randomTile(grid, trial);
         if (trial % 2 == 1) tile.clip = {};
+        tile.adaptiveSampling = trial % 4 < 3;
         return tile;
     }
 

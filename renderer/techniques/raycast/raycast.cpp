@@ -3,9 +3,19 @@
 #include "stages/banded_dispatch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace voxsheet {
+
+std::optional<StrideSettings> strideSettings(const TileSpec& tile, const ResidentVolume& volume) {
+    if (!adaptsSampling(tile)) return std::nullopt;
+    const auto& grid = volume.meta->grid;
+    const double coarser = std::cbrt(static_cast<double>(sampleCount(grid.dims)) /
+                                     static_cast<double>(sampleCount(volume.dims)));
+    return StrideSettings{tile.sampleDistanceVoxels,
+                          meanVoxelEdgeWorld(grid) * coarser / tile.unitLengthWorld, tile.shading.enabled};
+}
 
 void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
@@ -18,6 +28,8 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     const int samples = volumes.clipObject != nullptr ? std::min(4, longest) : longest;
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
     defines.emplace_back("PAIRS_SHARE_LIGHT", pairsShareLight(tile) ? "1" : "0");
+    const auto strides = stages.skipEmptySpace ? strideSettings(tile, volume) : std::nullopt;
+    defines.emplace_back("ADAPTIVE", strides ? "1" : "0");
     defines.emplace_back("PRE_INTEGRATED", preIntegrates(tile) ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);
 
@@ -27,7 +39,7 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     if (stages.skipEmptySpace) {
         LayerStage::bindOccupied(program, tile, volume, volumes.layers, samples * tile.sampleDistanceVoxels,
                                  stages.emptySpace);
-        stages.emptySpace.bindOccupied(program, tile.transfer, volume, kShortReach);
+        stages.emptySpace.bindOccupied(program, tile.transfer, volume, kShortReach, strides);
     }
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));

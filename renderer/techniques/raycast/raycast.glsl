@@ -3,6 +3,7 @@
 //   SKIP_EMPTY     1: stretches that cannot show anything are left out
 //   LAYERS         volumes blended with the drawn one
 //   PRE_INTEGRATED 1: whole stretches show the mean of the transfer function
+//   ADAPTIVE       1: cells say how many stretches have one sample together
 //   PAIRS_SHARE_LIGHT  1: two samples of whole stretches have one normal
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
@@ -26,9 +27,15 @@ uniform float unitsPerRadius; // bounding radius / unitLength
 const float kOpaque = 1.0 / 1024.0;
 
 // From a chunk with its middle there to the next that may show something, in chunks; 0: it may itself. `chunk`: what it covers.
-int chunksAhead(vec3 middle, vec3 chunk) {
+// `stride`: how many of its stretches have one sample together.
+int chunksAhead(vec3 middle, vec3 chunk, out int stride) {
+    stride = 1;
 #if SKIP_EMPTY
-    int ahead = stretchesAhead(texelFetch(occupiedCells, cellAt(middle), 0).r, float(CHUNK_SAMPLES) * sampleDistanceVoxels);
+    uint mark = texelFetch(occupiedCells, cellAt(middle), 0).r;
+    int ahead = stretchesAhead(mark, float(CHUNK_SAMPLES) * sampleDistanceVoxels);
+#if ADAPTIVE
+    stride = strideOf(mark);
+#endif
 #if LAYERS
     if (ahead > 0) ahead = min(ahead, layersStretchesAhead(middle, chunk));
 #endif
@@ -102,8 +109,8 @@ void takeSample(inout Light light, Path path, float depth, float length, bool ne
 #if PRE_INTEGRATED
 float stretchBegin(Path path, float depth) { return entryPosition(texelAt(path.ray.origin + depth * path.ray.direction)); }
 
-// `begin`: what stretchBegin() gives; becomes that of the next.
-vec4 stretchEntry(Path path, float depth, inout float begin) {
+// `begin`: what stretchBegin() gives; becomes that of the next. `length`: path.spacing, or several of it.
+vec4 stretchEntry(Path path, float depth, float length, inout float begin) {
     float end = stretchBegin(path, depth + path.spacing);
     vec4 entry = meanEntry(begin, end);
     begin = end;
@@ -111,10 +118,13 @@ vec4 stretchEntry(Path path, float depth, inout float begin) {
 }
 #else
 float stretchBegin(Path path, float depth) { return 0.0; }
-vec4 stretchEntry(Path path, float depth, inout float begin) {
-    return classifyTexel(texelAt(path.ray.origin + (depth + 0.5 * path.spacing) * path.ray.direction));
+vec4 stretchEntry(Path path, float depth, float length, inout float begin) {
+    return classifyTexel(texelAt(path.ray.origin + (depth + 0.5 * length) * path.ray.direction));
 }
 #endif
+
+// Of `stride` whole stretches where so many are left.
+float depthOf(Path path, int left, int stride) { return float(clamp(left, 0, stride)) * path.spacing; }
 
 #if PAIRS_SHARE_LIGHT
 void addThrough(inout Light light, vec3 rgb, float through) {
@@ -122,16 +132,15 @@ void addThrough(inout Light light, vec3 rgb, float through) {
     light.transmittance *= through;
 }
 
-// Two samples that share the normal between them.
-void takeLitPair(inout Light light, Path path, float depth, bool first, bool second, inout float begin) {
-    vec4 entry = stretchEntry(path, depth, begin);
-    vec4 other = stretchEntry(path, depth + path.spacing, begin);
-    float units = path.spacing * path.unitsPerDepth;
-    float through = first ? exp2(-entry.a * units) : 1.0;
-    float otherThrough = second ? exp2(-other.a * units) : 1.0;
+// Two samples that share the normal between them: of `first` and `second` of depth, the second may be nothing.
+void takeLitPair(inout Light light, Path path, float depth, float first, float second, inout float begin) {
+    vec4 entry = stretchEntry(path, depth, first, begin);
+    vec4 other = stretchEntry(path, depth + first, second, begin);
+    float through = exp2(-entry.a * (first * path.unitsPerDepth));
+    float otherThrough = exp2(-other.a * (second * path.unitsPerDepth));
     Reflection reflection = Reflection(1.0, 0.0);
     if (through * otherThrough < 1.0) {
-        float between = depth + (second ? 1.0 : 0.5) * path.spacing;
+        float between = depth + (second > 0.0 ? 1.0 : 0.5) * first;
         vec3 normal;
         bool behindCut = cutNormalAt(path, between, false, normal);
         if (!behindCut) normal = gradientNormal(path.ray.origin + between * path.ray.direction);
@@ -141,17 +150,22 @@ void takeLitPair(inout Light light, Path path, float depth, bool first, bool sec
     addThrough(light, reflected(reflection, other.rgb), otherThrough);
 }
 
-void takeWhole(inout Light light, Path path, int first, int count) {
+void takeWhole(inout Light light, Path path, int first, int count, int stride) {
     float begin = stretchBegin(path, path.span.begin + float(first) * path.spacing);
+#if ADAPTIVE
+    for (int k = 0; k < count; k += 2 * stride)
+#else
     for (int k = 0; k < CHUNK_SAMPLES; k += 2)
-        takeLitPair(light, path, path.span.begin + float(first + k) * path.spacing, k < count, k + 1 < count, begin);
+#endif
+        takeLitPair(light, path, path.span.begin + float(first + k) * path.spacing, depthOf(path, count - k, stride),
+                    depthOf(path, count - k - stride, stride), begin);
 }
 #elif PRE_INTEGRATED
-void takeWhole(inout Light light, Path path, int first, int count) {
+void takeWhole(inout Light light, Path path, int first, int count, int stride) {
     float begin = stretchBegin(path, path.span.begin + float(first) * path.spacing);
     for (int k = 0; k < CHUNK_SAMPLES; ++k) {
         float depth = path.span.begin + float(first + k) * path.spacing;
-        vec4 entry = stretchEntry(path, depth, begin);
+        vec4 entry = stretchEntry(path, depth, path.spacing, begin);
 #if SHADING
         if (entry.a > 0.0) entry.rgb = litAt(path, depth + 0.5 * path.spacing, entry.rgb);
 #endif
@@ -160,9 +174,16 @@ void takeWhole(inout Light light, Path path, int first, int count) {
 }
 #else
 // `count` whole stretches; none or fewer than a chunk's where the path ends.
-void takeWhole(inout Light light, Path path, int first, int count) {
+void takeWhole(inout Light light, Path path, int first, int count, int stride) {
+#if ADAPTIVE
+    for (int k = 0; k < count; k += stride) {
+        float length = depthOf(path, count - k, stride);
+        takeSample(light, path, path.span.begin + float(first + k) * path.spacing + 0.5 * length, length, false);
+    }
+#else
     for (int k = 0; k < CHUNK_SAMPLES; ++k)
         takeSample(light, path, path.span.begin + (float(first + k) + 0.5) * path.spacing, k < count ? path.spacing : 0.0, false);
+#endif
 }
 #endif
 
@@ -206,7 +227,8 @@ void look(Path path, inout Chunk at) {
 #endif
     if (at.verdict < 0) at.index = max(at.index, int((removedUntil - path.span.begin) / length) - 1);
     else {
-        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction, length * path.ray.direction);
+        int stride;
+        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction, length * path.ray.direction, stride);
         if (ahead > 0) at.verdict = -1;
         at.index += max(ahead - 1, 0);
     }
@@ -235,7 +257,7 @@ void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
             look(path, at);
         }
         while (at.verdict > 0 && at.index < chunks && light.transmittance > kOpaque) {
-            takeWhole(light, path, at.index * CHUNK_SAMPLES, wholeIn(at.index, whole));
+            takeWhole(light, path, at.index * CHUNK_SAMPLES, wholeIn(at.index, whole), 1);
             ++at.index;
             look(path, at);
         }
@@ -253,12 +275,13 @@ void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
     float length = float(CHUNK_SAMPLES) * path.spacing;
     while (light.transmittance > kOpaque) {
         int ahead = 1;
+        int stride = 1;
         while (chunk < chunks && ahead > 0) {
-            ahead = chunksAhead(path.ray.origin + (chunkBegin(path, chunk) + 0.5 * length) * path.ray.direction, length * path.ray.direction);
+            ahead = chunksAhead(path.ray.origin + (chunkBegin(path, chunk) + 0.5 * length) * path.ray.direction, length * path.ray.direction, stride);
             chunk += ahead;
         }
         if (chunk >= chunks) break;
-        takeWhole(light, path, chunk * CHUNK_SAMPLES, wholeIn(chunk, whole));
+        takeWhole(light, path, chunk * CHUNK_SAMPLES, wholeIn(chunk, whole), stride);
         ++chunk;
     }
 }

@@ -11,13 +11,23 @@
 //
 // Light: where pairsShareLight(), samples 2k and 2k + 1 of the whole stretches have the normal half-way
 // between them; not in chunks that an object clips.
-// Pre-integrated (preIntegrates()), a whole stretch shows the mean over the values between its ends instead;
-// the rest has its sample.
+// Adaptive (adaptsSampling()): the whole stretches are taken by chunks of chunkSamples(). The cell of empty
+// space at a chunk's middle has a stride (stages/sample_strides.h): so many stretches have one sample
+// together, in the middle of all of them; at a ray's end of those that are left. What is said of pairs and
+// their light then holds for the samples of a chunk. Pre-integrated (preIntegrates()), a whole stretch shows
+// the mean over the values between its ends instead; the rest has its sample.
 #pragma once
 
+#include "stages/sample_strides.h"
 #include "stages/shared_stages.h"
 
+#include <optional>
+
 namespace voxsheet {
+
+/// What decides a tile's strides; nothing where it is sampled evenly.
+[[nodiscard]] std::optional<StrideSettings> strideSettings(const TileSpec& tile,
+                                                           const ResidentVolume& volume);
 
 void drawRaycast(SharedStages& stages, const DrawRequest& request);
 

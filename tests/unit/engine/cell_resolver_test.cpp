@@ -204,6 +204,8 @@ TEST_F(CellResolver, LevelAndQualityTakeTheCoarserWithinWhatThereIs) {
     EXPECT_EQ(tile({{"background", "transparent"}}, 0).background.w, 0.0F);
     EXPECT_EQ(tile({{"sampling.transfer", "samples"}}, 0).classification, Classification::AtSamples);
     EXPECT_EQ(tile({{"sampling.transfer", "mean"}}, 0).classification, Classification::PreIntegrated);
+    EXPECT_TRUE(tile(nlohmann::json::object(), 0).adaptiveSampling);
+    EXPECT_FALSE(tile({{"sampling.adaptive", "off"}}, 0).adaptiveSampling);
 }
 
 TEST_F(CellResolver, PeriodsMoveCameraAndClipsWithTheBoxAndTheShiftMovesNeither) {
