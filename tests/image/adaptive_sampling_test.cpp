@@ -13,7 +13,7 @@ constexpr int kPixels = 64;
 constexpr int kSamples = 64;
 constexpr double kConvergedVoxels = 1.0 / 16.0;
 constexpr double kGoodDecibels = 42.0;  ///< 40 is what users get promised
-constexpr double kSameDecibels = 130.0; ///< positions are rounded another way
+constexpr double kSameDecibels = 120.0; ///< positions are rounded another way
 
 class AdaptiveSampling : public InsideScene {
 protected:
