@@ -1,6 +1,7 @@
 // From a texel of the volume to colour and opacity, through a float table (stages/classification.h).
 //   VALUE_SCALE   0 linear, 1 logarithmic, 2 linear about 0 and logarithmic beyond
 //   MAY_BE_NAN    1 when the volume can hold NaN
+//   COARSE_FILTER if defined: weights in steps of 1/256 voxel, as GPUs have them
 //   SHADER_FILTER 1: the shader interpolates between samples itself; 2: the nearest sample, of categories
 #include "stages/filtering.glsl"
 #include "stages/value_scale.glsl"
@@ -19,6 +20,8 @@ float interpolatedTexel(vec3 position) { return filteredTexel(volume, position, 
 
 #if SHADER_FILTER == 2
 float texelAt(vec3 position) { return nearestTexel(volume, position, filterPeriodic); }
+#elif defined(COARSE_FILTER)
+float texelAt(vec3 position) { return coarselyFilteredTexel(volume, position, filterPeriodic); }
 #elif SHADER_FILTER
 float texelAt(vec3 position) { return interpolatedTexel(position); }
 #else

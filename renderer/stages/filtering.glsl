@@ -29,3 +29,11 @@ float filteredTexel(sampler3D samples, vec3 position, vec3 periodic) {
     vec2 alongY = mix(alongX.xz, alongX.yw, weight.y);
     return mix(alongY.x, alongY.y, weight.z);
 }
+
+// As GPUs filter: a sample's weight along an axis is a multiple of 1/256.
+float coarselyFilteredTexel(sampler3D samples, vec3 position, vec3 periodic) {
+    vec3 size = vec3(textureSize(samples, 0));
+    vec3 index = position * size - 0.5;
+    vec3 coarse = floor(index * 256.0 + 0.5) / 256.0;
+    return filteredTexel(samples, (coarse + 0.5) / size, periodic);
+}

@@ -12,6 +12,7 @@ gpu::ShaderDefines SharedStages::definesFor(const DrawRequest& request) const {
     const auto& [tile, volumes, frame, target, rows] = request;
     auto defines =
         ClassificationStage::defines(*tile.transfer, volumes.volume, filterFloatsInShader, tile.categories);
+    if (filterCoarsely) defines.emplace_back("COARSE_FILTER", "1");
     for (const auto& more : {ClipStage::defines(tile.clip, volumes.clipObject, filterFloatsInShader),
                              ShadingStage::defines(tile.shading, volumes.gradients)})
         defines.insert(defines.end(), more.begin(), more.end());

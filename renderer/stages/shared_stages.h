@@ -53,6 +53,8 @@ struct SharedStages {
     bool filterFloatsInShader = false;
     /// For drivers whose filter weighs samples coarsely.
     bool interpolateRootsInShader;
+    /// Volumes are filtered as coarsely as GPUs do, for trials on devices that do not.
+    bool filterCoarsely = false;
 };
 
 } // namespace voxsheet

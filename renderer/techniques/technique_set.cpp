@@ -174,4 +174,6 @@ void TechniqueSet::setRootInterpolation(bool enabled) {
     implementation_->stages.interpolateRootsInShader = enabled;
 }
 
+void TechniqueSet::setCoarseFiltering(bool enabled) { implementation_->stages.filterCoarsely = enabled; }
+
 } // namespace voxsheet

@@ -53,6 +53,9 @@ public:
     /// Isosurfaces refine their crossings by interpolation of their own; by default only where the workaround
     /// "coarse-filter-weights" is in force.
     void setRootInterpolation(bool enabled);
+    /// Shaders weigh a volume's samples in steps of 1/256 voxel, as GPUs do, for trials on devices that weigh
+    /// them exactly; off by default. Kernels (simd/kernels.h) do not know it.
+    void setCoarseFiltering(bool enabled);
 
 private:
     class Implementation;

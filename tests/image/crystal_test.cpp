@@ -102,6 +102,20 @@ TEST_F(CrystalPictures, AgreeWithTheTruthWithEveryTechnique) {
     }
 }
 
+/// Waves on a straight cell have many points just at an isovalue; the truth's side of it must be found there.
+TEST_F(CrystalPictures, CrossingsAreTheTruthsThroughFiltersAsCoarseAsThoseOfGpus) {
+    const Grid grid = cell(false);
+    addCrystal("straight", grid);
+    painter.techniques().setCoarseFiltering(true);
+    painter.techniques().setRootInterpolation(true);
+    for (const bool shading : {false, true})
+        for (const auto projection : {Projection::Perspective, Projection::Orthographic}) {
+            auto tile = tileOf("straight", grid, Technique::Isosurface, projection);
+            tile.shading.enabled = shading;
+            (void)agree(tile, shading ? 60.0 : 80.0, 900);
+        }
+}
+
 TEST_F(CrystalPictures, AgreeWithTheTruthWhenShiftedRepeatedAndClipped) {
     const Grid grid = cell();
     addCrystal("crystal", grid);

@@ -4,7 +4,7 @@
 //   CAPS           1: cuts close what they open
 //   ALPHA_TEST     1: the plain test, with its gaps
 //   SURFACES       how many there are
-//   EXACT_ROOTS    1: crossings are refined in the shader's own interpolation, for filters with coarse weights
+//   EXACT_ROOTS    1: crossings are told and refined by the shader's own interpolation, for filters with coarse weights
 #include "stages/kept_span.glsl"
 #include "stages/classification.glsl"
 #include "stages/empty_space.glsl"
@@ -21,7 +21,7 @@ uniform float sampleDistanceVoxels;
 const int kMaxSurfaces = 8;
 uniform vec4 surfaceTexels[kMaxSurfaces];  // x: the value as a texel; rising
 uniform vec4 surfaceColours[kMaxSurfaces]; // not premultiplied
-uniform float tolerance;                   // of the plain test, in texels
+uniform float tolerance;                   // 1/128 of the volume's range in texels: what the plain test takes for equal
 uniform vec2 capTexels; // texel times x is at least y: inside
 uniform vec2 mirroredCapTexels; // the same for negative values; never true: there are none
 
@@ -64,19 +64,23 @@ float refinedTexelAt(Path path, float depth) {
 #endif
 }
 
+// The texel whose side of each surface tells whether one is crossed. Weights in steps of 1/256 on three axes move it by 3/512 of the range
+// at most: what is further away from every surface stays on its side.
+float sidedTexelAt(Path path, float depth) {
+    float texel = texelAtDepth(path, depth);
+#if EXACT_ROOTS
+    bool near = false;
+    for (int i = 0; i < SURFACES; ++i) near = near || abs(texel - surfaceTexels[i].x) <= tolerance;
+    if (near) texel = refinedTexelAt(path, depth);
+#endif
+    return texel;
+}
+
 // Where the texel is `texel` between two depths that lie on both sides of it: by false position, with the weight of an end that
 // stays halved (Illinois; Dowell & Jarratt 1971), until it is enclosed to kRefinedVoxels or two guesses in turn lie within an eighth of that.
 float refinedDepth(Path path, float texel, float near, float far, float atNear, float atFar) {
     float wanted = kRefinedVoxels * path.depthPerVoxel;
     float a = near, b = far, fa = atNear - texel, fb = atFar - texel;
-#if EXACT_ROOTS
-    float exactNear = refinedTexelAt(path, near) - texel, exactFar = refinedTexelAt(path, far) - texel;
-    // Else the crossing lies within the filter's error of an end, to which the search then goes.
-    if ((exactNear < 0.0) != (exactFar < 0.0)) {
-        fa = exactNear;
-        fb = exactFar;
-    }
-#endif
     float guess = a + (b - a) * clamp(fa / (fa - fb), 0.0, 1.0);
     float moved = b - a;
     float side = 0.0; // of the last guess
@@ -124,7 +128,7 @@ void showCrossing(inout Light light, Path path, int surface, float depth) {
 #if CAPS
 // A cut at `depth`, whose normal is of the view frame; shows it if it lies inside a surface.
 void showCap(inout Light light, Path path, float depth, vec3 normal) {
-    float texel = texelAtDepth(path, depth);
+    float texel = refinedTexelAt(path, depth);
     bool inside = texel * capTexels.x >= capTexels.y || texel * mirroredCapTexels.x >= mirroredCapTexels.y; // false for NaN
     if (!inside) return;
     vec3 rgb = classifyTexel(texel).rgb;
@@ -233,10 +237,10 @@ void enter(Path path, inout March at) {
     at.entered = true;
     at.step = 0;
     at.begin = chunkBegin(path, at.chunk);
-    at.atBegin = texelAtDepth(path, at.begin);
+    at.atBegin = sidedTexelAt(path, at.begin);
     at.rankBegin = rankOf(at.atBegin);
     at.atStep = at.atBegin;
-    at.atBefore = texelAtDepth(path, at.begin - path.spacing);
+    at.atBefore = sidedTexelAt(path, at.begin - path.spacing);
     at.isSplit = false;
 #if CAPS && CLIP_OBJECT
     at.measureBegin = keptMeasure(path.clip, at.begin);
@@ -258,7 +262,7 @@ void splitAtTurn(Path path, inout March at) {
     float atTurn = at.atBegin;
     for (int i = 0; i < 8 && at.mayTurn; ++i) {
         float guess = b - turn > turn - a ? mix(turn, b, 0.382) : mix(turn, a, 0.382);
-        float texel = texelAtDepth(path, guess);
+        float texel = sidedTexelAt(path, guess);
         bool better = side * texel > side * atTurn;
         if ((guess > turn) == better) a = better ? turn : guess; else b = better ? turn : guess;
         if (better) { turn = guess; atTurn = texel; }
@@ -306,7 +310,7 @@ bool seekStep(Path path, inout March at) {
         int count = min(CHUNK_SAMPLES, at.steps - at.chunk * CHUNK_SAMPLES);
         while (at.chunk < at.chunks && at.step < count) {
             at.end = min(chunkBegin(path, at.chunk) + float(at.step + 1) * path.spacing, path.span.end);
-            at.atEnd = texelAtDepth(path, at.end);
+            at.atEnd = sidedTexelAt(path, at.end);
             at.rankEnd = rankOf(at.atEnd);
 #if CAPS && CLIP_OBJECT
             at.measureEnd = keptMeasure(path.clip, at.end);
