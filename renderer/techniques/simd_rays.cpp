@@ -15,7 +15,7 @@ namespace voxsheet {
 namespace {
 
 constexpr std::size_t kCachedTables = 512; ///< of 64 KiB each: one for each of many cells
-constexpr int kRowsPerTask = 8;
+constexpr int kRowsPerTask = 2;
 
 template <std::size_t n, typename Vector>
 void put(float (&to)[n], const Vector& from) {
