@@ -12,6 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace voxsheet::simd::HWY_NAMESPACE {
 namespace {
 
+// Stretches that have one sample together where an object clips: a crossing is sought within them.
+constexpr float kClippedStride = 2.0F;
+
 template <TexelFormat format, bool preIntegrated>
 struct Caster {
     const PictureJob& job;
@@ -239,16 +242,15 @@ struct Caster {
         return measureEnd;
     }
 
-    HWY_INLINE void takeClippedChunk(Mask active, Float chunk, Float stretches) {
-        const Float count =
-            pick(active, stretches - chunk * num(static_cast<float>(job.chunkSamples)), zero());
-        const Float begin = chunkBegin(chunk);
-        Float measure = keptMeasure(job.clip, path.clip, begin);
-        for (int k = 0; k < job.chunkSamples; ++k) {
-            const Mask counts = num(static_cast<float>(k)) < count;
-            if (!any(counts)) break;
-            const Float from = hn::MulAdd(num(static_cast<float>(k)), path.spacing, begin);
-            measure = takeClipped(counts, from, from + path.spacing, measure);
+    HWY_INLINE void takeClippedChunk(Mask active, Mask partly, Float chunk, Float stretches) {
+        const Float first = chunk * num(static_cast<float>(job.chunkSamples));
+        const Float count = countIn(active, first, stretches);
+        const Float most = pick(partly, hn::Min(stride, num(kClippedStride)), stride);
+        Float measure = keptMeasure(job.clip, path.clip, chunkBegin(chunk));
+        for (Float step = zero(); any(step < count); step = step + most) {
+            const Float from = hn::MulAdd(first + step, path.spacing, path.span.begin);
+            const Float length = hn::Min(count - step, most) * path.spacing;
+            measure = takeClipped(step < count, from, from + length, measure);
         }
     }
 
@@ -312,7 +314,7 @@ struct Caster {
             active = both(active, chunk < chunks);
             if (!any(active)) return;
             if (any(both(active, partly)))
-                takeClippedChunk(active, chunk, stretches);
+                takeClippedChunk(active, partly, chunk, stretches);
             else
                 takeWhole(active, chunk, stretches);
             chunk = chunk + num(1.0F);

@@ -88,7 +88,7 @@ struct TileSpec {
 /// True where samples are farther apart in parts of the volume that change little (stages/sample_strides.h).
 [[nodiscard]] inline bool adaptsSampling(const TileSpec& tile) {
     return tile.technique == Technique::Raycast && tile.adaptiveSampling && tile.layers.volumes.empty() &&
-           !tile.clip.object && !tile.categories && !preIntegrates(tile);
+           !tile.categories && !preIntegrates(tile);
 }
 
 /// Lit ray casting of one volume, with samples half a voxel apart at most: two samples have one normal

@@ -146,7 +146,7 @@ void addPicture(std::vector<KeySpec>& keys) {
         choice("sampling.adaptive", {"off", "on"}, "on", group,
                "Ray casting takes fewer samples than sampling.distance says, up to four voxels apart, where "
                "the colours of a part of the volume change little. Not of volumes that are blended with "
-               "others or cut by a clip object, and not with means."),
+               "others, and not with means."),
         "technique", {"raycast"}));
     keys.push_back(
         choice("quality", {"full", "half", "quarter", "eighth"}, "full", group,

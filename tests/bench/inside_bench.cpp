@@ -148,6 +148,7 @@ std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int sampl
     }
     if (std::find(techniques.begin(), techniques.end(), "vc") != techniques.end()) {
         auto object = volumeTile(grid, samples, options.pixels);
+        object.adaptiveSampling = options.adaptive;
         object.clip.object = shapeAt("box", grid, 0.5, glm::dvec3(0.75), ClipMode::Probe);
         cases.push_back({size + "vc clip 1/8 by object", object});
     }

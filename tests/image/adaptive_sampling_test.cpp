@@ -53,11 +53,18 @@ protected:
         EXPECT_GE(fields::difference(pictures.even, pictures.adaptive).psnr, kSameDecibels);
     }
 
+    /// A ball keeps what lies inside of it, or outside.
+    void clipByBall(TileSpec& tile, ClipMode mode) const {
+        tile.clip.object = ClipObject{
+            "ball", objectOver(fields::gridOf(fields::Geometry::Isotropic, 48), grid, 0.8), mode, false};
+    }
+
     Grid grid = fields::gridOf(fields::Geometry::Isotropic, kSamples);
     fields::AnalyticField field = fields::gaussianSum();
 };
 
 TEST_F(AdaptiveSampling, KeepsPicturesGood) {
+    addBall("ball");
     add(field, grid, ScalarType::U8, "u8");
     add(field, grid, ScalarType::F32, "f32");
     for (const char* key : {"u8", "f32"})
@@ -71,6 +78,11 @@ TEST_F(AdaptiveSampling, KeepsPicturesGood) {
                 expectGood(tile);
                 tile.clip.planes = {planeThrough(grid, glm::dvec3(0.45), {0.3, 1.0, -0.5})};
                 expectGood(tile);
+                tile.clip.planes.clear();
+                for (const auto mode : {ClipMode::Probe, ClipMode::Clip}) {
+                    clipByBall(tile, mode);
+                    expectGood(tile);
+                }
             }
 }
 
@@ -84,15 +96,8 @@ TEST_F(AdaptiveSampling, TakesFewerSamplesOfThinMatter) {
 
 TEST_F(AdaptiveSampling, LeavesWhatItIsNotFor) {
     add(field, grid, ScalarType::F32, "f32");
-    addBall("ball");
     auto thin = tileOf("f32", fields::filledTable(field.low, field.high), false);
     thin.unitLengthWorld *= 16.0;
-    auto clipped = thin;
-    clipped.clip.object = ClipObject{};
-    clipped.clip.object->dataset = "ball";
-    clipped.clip.object->objectFromWorld =
-        objectOver(fields::gridOf(fields::Geometry::Isotropic, 48), grid, 0.7);
-    expectSame(clipped);
     auto mean = thin;
     mean.classification = Classification::PreIntegrated;
     expectSame(mean);

@@ -23,12 +23,12 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     auto defines = stages.definesFor(request);
     const auto layerDefines = LayerStage::defines(tile, volumes.layers, stages.filterFloatsInShader);
     defines.insert(defines.end(), layerDefines.begin(), layerDefines.end());
-    // Near a clip object's surface samples are dear, and short chunks keep close to it.
+    const auto strides = stages.skipEmptySpace ? strideSettings(tile, volume) : std::nullopt;
+    // Near a clip object's surface even samples are dear, and short chunks keep close to it.
     const int longest = chunkSamples(tile.sampleDistanceVoxels, kShortReach);
-    const int samples = volumes.clipObject != nullptr ? std::min(4, longest) : longest;
+    const int samples = volumes.clipObject != nullptr && !strides ? std::min(4, longest) : longest;
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
     defines.emplace_back("PAIRS_SHARE_LIGHT", pairsShareLight(tile) ? "1" : "0");
-    const auto strides = stages.skipEmptySpace ? strideSettings(tile, volume) : std::nullopt;
     defines.emplace_back("ADAPTIVE", strides ? "1" : "0");
     defines.emplace_back("PRE_INTEGRATED", preIntegrates(tile) ? "1" : "0");
     const auto& program = stages.programs.compute("techniques/raycast/raycast.glsl", defines);

@@ -25,6 +25,7 @@ uniform float sampleDistanceVoxels;
 uniform float unitsPerRadius; // bounding radius / unitLength
 
 const float kOpaque = 1.0 / 1024.0;
+const int kClippedStride = 2; // stretches that have one sample together where an object clips: a crossing is sought within them
 
 // From a chunk with its middle there to the next that may show something, in chunks; 0: it may itself. `chunk`: what it covers.
 // `stride`: how many of its stretches have one sample together.
@@ -207,6 +208,7 @@ float takeClipped(inout Light light, Path path, float begin, float end, float me
 struct Chunk {
     int index;
     int verdict; // 1: all of it counts; 0: a part of it may; -1: it shows nothing
+    int stride;
 };
 
 float chunkBegin(Path path, int chunk) { return path.span.begin + float(chunk * CHUNK_SAMPLES) * path.spacing; }
@@ -227,19 +229,18 @@ void look(Path path, inout Chunk at) {
 #endif
     if (at.verdict < 0) at.index = max(at.index, int((removedUntil - path.span.begin) / length) - 1);
     else {
-        int stride;
-        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction, length * path.ray.direction, stride);
+        int ahead = chunksAhead(path.ray.origin + (begin + 0.5 * length) * path.ray.direction, length * path.ray.direction, at.stride);
         if (ahead > 0) at.verdict = -1;
         at.index += max(ahead - 1, 0);
     }
 }
 
-void takeClippedChunk(inout Light light, Path path, int chunk, int count) {
-    float begin = chunkBegin(path, chunk);
-    float measure = keptMeasure(path.clip, begin);
-    for (int k = 0; k < count; ++k) {
-        float stretch = begin + float(k) * path.spacing;
-        measure = takeClipped(light, path, stretch, stretch + path.spacing, measure);
+void takeClippedChunk(inout Light light, Path path, int chunk, int count, int stride) {
+    int most = min(stride, kClippedStride);
+    float measure = keptMeasure(path.clip, chunkBegin(path, chunk));
+    for (int k = 0; k < count; k += most) {
+        float stretch = path.span.begin + float(chunk * CHUNK_SAMPLES + k) * path.spacing;
+        measure = takeClipped(light, path, stretch, stretch + depthOf(path, count - k, most), measure);
     }
 }
 
@@ -248,7 +249,7 @@ void takeClippedChunk(inout Light light, Path path, int chunk, int count) {
 void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
     float length = float(CHUNK_SAMPLES) * path.spacing;
     vec2 kept = (clipKeptSpan(path.clip) - path.span.begin) / length;
-    Chunk at = Chunk(int(clamp(kept.x, 0.0, float(chunks))), -1);
+    Chunk at = Chunk(int(clamp(kept.x, 0.0, float(chunks))), -1, 1);
     chunks = int(clamp(ceil(kept.y), 0.0, float(chunks)));
     if (at.index < chunks) look(path, at);
     while (light.transmittance > kOpaque && at.index < chunks) {
@@ -257,12 +258,12 @@ void takeWholeStretches(inout Light light, Path path, int whole, int chunks) {
             look(path, at);
         }
         while (at.verdict > 0 && at.index < chunks && light.transmittance > kOpaque) {
-            takeWhole(light, path, at.index * CHUNK_SAMPLES, wholeIn(at.index, whole), 1);
+            takeWhole(light, path, at.index * CHUNK_SAMPLES, wholeIn(at.index, whole), at.stride);
             ++at.index;
             look(path, at);
         }
         while (at.verdict == 0 && at.index < chunks && light.transmittance > kOpaque) {
-            takeClippedChunk(light, path, at.index, wholeIn(at.index, whole));
+            takeClippedChunk(light, path, at.index, wholeIn(at.index, whole), at.stride);
             ++at.index;
             look(path, at);
         }

@@ -13,9 +13,10 @@
 // between them; not in chunks that an object clips.
 // Adaptive (adaptsSampling()): the whole stretches are taken by chunks of chunkSamples(). The cell of empty
 // space at a chunk's middle has a stride (stages/sample_strides.h): so many stretches have one sample
-// together, in the middle of all of them; at a ray's end of those that are left. What is said of pairs and
-// their light then holds for the samples of a chunk. Pre-integrated (preIntegrates()), a whole stretch shows
-// the mean over the values between its ends instead; the rest has its sample.
+// together, in the middle of all of them; at a ray's end of those that are left. In chunks that an object
+// clips it is 2 at most. What is said of pairs and their light then holds for the samples of a chunk.
+// Pre-integrated (preIntegrates()), a whole stretch shows the mean over the values between its ends instead;
+// the rest has its sample.
 #pragma once
 
 #include "stages/sample_strides.h"
