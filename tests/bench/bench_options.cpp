@@ -45,6 +45,7 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             std::printf(
                 "%s\n  --samples N  of the volume per axis (256)\n  --pixels N   of the square "
                 "picture (512)\n"
+                "  --cell-samples N  per axis of each of 25 cells (128)\n"
                 "  --frames N   per case (20)\n  --device N   EGL device\n  --type T     u8, u16 or "
                 "f32 (u8)\n"
                 "  --technique T  vr, sr, vc, ie or all: what looks inside, with and without light, at 128 "
@@ -57,6 +58,8 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
         }
         if (argument == "--samples")
             options.samples = numberAfter(count, arguments, i, 8, 1024), options.samplesGiven = true;
+        else if (argument == "--cell-samples")
+            options.cellSamples = numberAfter(count, arguments, i, 8, 512);
         else if (argument == "--pixels")
             options.pixels = numberAfter(count, arguments, i, 8, 4096);
         else if (argument == "--frames")

@@ -29,7 +29,7 @@ struct Sheet {
 
 Sheet sheetOf(const VolumeBenchOptions& options) {
     Sheet sheet;
-    sheet.samples = std::min(128, options.samples);
+    sheet.samples = std::min(options.cellSamples, options.samples);
     sheet.pixels = options.samples < 128 ? 64 : 256;
     sheet.stride = std::max(1, sheet.pixels / 32);
     const auto field = fields::gaussianSum();

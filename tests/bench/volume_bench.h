@@ -26,6 +26,7 @@ struct VolumeBenchOptions {
     std::vector<std::string> techniques;
     bool adaptive = true;      ///< sampling, as the style key sampling.adaptive
     std::string only;          ///< of those, the cases whose name has this text in it
+    int cellSamples = 128;     ///< per axis of each of 25 cells, at most `samples`
     bool samplesGiven = false; ///< else that bench takes 128 and 256 samples
 };
 
