@@ -107,7 +107,8 @@ Action addTimeN(CLI::App& app) {
     app.add_option(
         "--dr-limit", a->texts.drLimit,
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
-    app.add_option("--frames", a->options.frames, "Frames per N, of which the median counts (6)")
+    app.add_option("--frames", a->options.frames,
+                   "Frames per N, of which the median counts (6); several times as many where they are quick")
         ->check(CLI::Range(1, 1000));
     app.add_option("--step", a->options.step, "Measure N = 1 to STEP, then every STEP-th (1)")
         ->check(CLI::Range(1, 1024));

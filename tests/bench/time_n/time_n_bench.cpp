@@ -20,6 +20,8 @@ namespace voxsheet::bench {
 namespace {
 
 constexpr int kCheckedTiles = 4;
+constexpr std::size_t kMostRounds = 16;
+constexpr double kLeastTotalMs = 400.0;
 constexpr int kFirstFrames = 5; ///< until shaders are compiled and clocks are up
 
 /// What it does not keep comes from the disk: nothing is left to the system's page cache.
@@ -104,9 +106,17 @@ private:
         std::vector<double> uploads;
         std::vector<double> reads;
         const auto diskBefore = memory_->state().diskBytes;
-        for (int frame = 0; frame < result_.options.frames; ++frame) {
-            const auto drawn = draw(frameSpec(n, frame));
+        double totalMs = 0.0;
+        // Whole rounds, so that every N is seen from the same sides.
+        const auto round = static_cast<std::size_t>(result_.options.frames);
+        const auto isEnough = [&] {
+            return times.size() >= kMostRounds * round ||
+                   (totalMs >= kLeastTotalMs && times.size() % round == 0);
+        };
+        while (times.empty() || !isEnough()) {
+            const auto drawn = draw(frameSpec(n, static_cast<int>(times.size() % round)));
             times.push_back(drawn.wallMs);
+            totalMs += drawn.wallMs;
             uploads.push_back(0.0);
             reads.push_back(0.0);
             for (const auto& tile : drawn.tiles) {
@@ -121,7 +131,7 @@ private:
         point.uploadMs = measuredMedian(uploads).value;
         point.ioMs = measuredMedian(reads).value;
         point.diskBytesPerFrame =
-            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(result_.options.frames);
+            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(times.size());
         if (point.uploadMs > 0.0 && !result_.textureSwapN) result_.textureSwapN = n;
         if (point.diskBytesPerFrame > 0 && !result_.memorySwapN) result_.memorySwapN = n;
         const auto curve = resolution_.times().curve(point.level, n);
