@@ -53,7 +53,7 @@ glm::dmat4 worldFromSpace(const NrrdHeader& header) {
     };
     if (header.space == "left-posterior-superior") return rasFromLps();
     if (header.space == "left-anterior-superior") return mirrored(-1, 1, 1);
-    if (header.space == "3d-left-handed" && header.hasDirections) return mirrored(1, 1, -1);
+    if (header.space == "3d-left-handed") return mirrored(1, 1, -1);
     return glm::dmat4(1.0);
 }
 
@@ -144,6 +144,10 @@ void placeNrrdGrid(const std::string& name, const NrrdHeader& header, const Nrrd
         meta.notes.push_back(
             "The header names the space '" + header.space +
             "' without directions; the axes of the file are taken as the axes of that space.");
+    if (header.space == "3d-left-handed")
+        meta.notes.emplace_back(
+            "Its space is left-handed and the world right-handed: what the file calls z is "
+            "shown as -z, so that nothing is mirrored.");
 }
 
 std::vector<std::string> nrrdComponentNames(const NrrdAxis& axis) {

@@ -193,14 +193,15 @@ std::vector<std::string> quotedWords(const std::string& text) {
     return words;
 }
 
-/// One finite vector "(x,y,z)" or "(x,y)" from the front of `text`, which it shortens; nullopt after "none".
-std::optional<glm::dvec3> takeVector(const FieldReader& fields, const std::string& field,
-                                     std::string_view& text) {
+/// The numbers of one finite vector "(x,y,z)" from the front of `text`, which it shortens; empty after
+/// "none".
+std::vector<double> takeVector(const FieldReader& fields, const std::string& field, std::size_t least,
+                               std::size_t most, std::string_view& text) {
     const auto whole = std::string(text);
     text = trimmed(text);
     if (text.starts_with("none")) {
         text.remove_prefix(4);
-        return std::nullopt;
+        return {};
     }
     const auto end = text.find(')');
     if (!text.starts_with('(') || end == std::string_view::npos) fields.failValue(field, whole);
@@ -208,18 +209,40 @@ std::optional<glm::dvec3> takeVector(const FieldReader& fields, const std::strin
     text.remove_prefix(end + 1);
     const auto commas = std::count(inner.begin(), inner.end(), ',');
     std::replace(inner.begin(), inner.end(), ',', ' ');
-    auto numbers = parseNumbers(inner, static_cast<std::size_t>(commas) + 1);
-    if (!numbers || numbers->size() < 2 || numbers->size() > 3) fields.failValue(field, whole);
-    numbers->resize(3, 0.0);
-    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    const auto numbers = parseNumbers(inner, static_cast<std::size_t>(commas) + 1);
+    if (!numbers || numbers->size() < least || numbers->size() > most) fields.failValue(field, whole);
+    return *numbers;
 }
 
-void readSpace(const FieldReader& fields, NrrdHeader& header) {
-    static const std::map<std::string, std::string> shortNames{{"ras", "right-anterior-superior"},
-                                                               {"las", "left-anterior-superior"},
-                                                               {"lps", "left-posterior-superior"}};
-    auto space = lowerCase(fields.find("space").value_or(""));
-    if (const auto it = shortNames.find(space); it != shortNames.end()) space = it->second;
+/// The part of a vector that lies in space.
+glm::dvec3 spatialPart(const std::vector<double>& numbers) {
+    glm::dvec3 part(0.0);
+    for (std::size_t i = 0; i < std::min<std::size_t>(numbers.size(), 3); ++i)
+        part[static_cast<int>(i)] = numbers[i];
+    return part;
+}
+
+/// A direction along the time of the space makes its axis the time axis, with the direction's length as step.
+void setDirection(const FieldReader& fields, const std::vector<double>& numbers, NrrdAxis& axis) {
+    if (numbers.empty()) return;
+    const auto part = spatialPart(numbers);
+    const double time = numbers.size() == 4 ? numbers[3] : 0.0;
+    if (time == 0.0) {
+        axis.direction = part;
+        return;
+    }
+    if (part != glm::dvec3(0.0))
+        throw Unsupported(fields.name(), "an axis of it leads through space and time at once");
+    axis.kind = "time";
+    axis.spacing = time;
+}
+
+/// The long name without "-time", and whether it had that.
+std::pair<std::string, bool> spaceName(const FieldReader& fields) {
+    static const std::map<std::string, std::string> shortNames{
+        {"ras", "right-anterior-superior"},      {"las", "left-anterior-superior"},
+        {"lps", "left-posterior-superior"},      {"rast", "right-anterior-superior-time"},
+        {"last", "left-anterior-superior-time"}, {"lpst", "left-posterior-superior-time"}};
     static const std::array<std::string_view, 7> known{"",
                                                        "right-anterior-superior",
                                                        "left-anterior-superior",
@@ -227,13 +250,25 @@ void readSpace(const FieldReader& fields, NrrdHeader& header) {
                                                        "scanner-xyz",
                                                        "3d-right-handed",
                                                        "3d-left-handed"};
-    if (std::find(known.begin(), known.end(), space) == known.end())
-        throw Unsupported(fields.name(),
-                          "the space '" + printable(space) + "' is not one with three axes that is known");
+    const auto given = lowerCase(fields.find("space").value_or(""));
+    const auto it = shortNames.find(given);
+    auto space = it == shortNames.end() ? given : it->second;
+    const bool withTime = space.ends_with("-time");
+    if (withTime) space.resize(space.size() - 5);
+    if (std::find(known.begin(), known.end(), space) == known.end() || (withTime && space.empty()))
+        throw Unsupported(fields.name(), "the space '" + printable(given) + "' is not one that is known");
+    return {space, withTime};
+}
+
+void readSpace(const FieldReader& fields, NrrdHeader& header) {
+    const auto [space, withTime] = spaceName(fields);
     header.space = space;
+    const std::size_t least = withTime ? 4 : 2;
+    const std::size_t most = withTime ? 4 : 3;
 
     if (const auto text = fields.find("spaceunits")) {
-        const auto units = quotedWords(*text);
+        auto units = quotedWords(*text);
+        if (withTime && units.size() == 4) units.pop_back();
         if (!units.empty() &&
             std::all_of(units.begin(), units.end(), [&](const auto& u) { return u == units[0]; }))
             header.spaceUnit = units[0];
@@ -241,13 +276,16 @@ void readSpace(const FieldReader& fields, NrrdHeader& header) {
     if (const auto text = fields.find("spacedirections")) {
         std::string_view rest(*text);
         for (auto& axis : header.axes)
-            axis.direction = takeVector(fields, "space directions", rest);
+            setDirection(fields, takeVector(fields, "space directions", least, most, rest), axis);
         if (!trimmed(rest).empty()) fields.failValue("space directions", *text);
         header.hasDirections = true;
     }
     if (const auto text = fields.find("spaceorigin")) {
         std::string_view rest(*text);
-        header.spaceOrigin = takeVector(fields, "space origin", rest).value_or(glm::dvec3(0.0));
+        const auto origin = takeVector(fields, "space origin", least, most, rest);
+        header.spaceOrigin = spatialPart(origin);
+        for (auto& axis : header.axes)
+            if (origin.size() == 4 && axis.kind == "time") axis.min = origin[3];
         if (!trimmed(rest).empty()) fields.failValue("space origin", *text);
     }
 }

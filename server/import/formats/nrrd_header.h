@@ -25,7 +25,7 @@ struct NrrdAxis {
     std::optional<double> spacing;
     std::optional<double> min;
     std::optional<double> max;
-    std::optional<glm::dvec3> direction; ///< in the file's space; 2D directions have z = 0
+    std::optional<glm::dvec3> direction; ///< in the file's space; 2D directions have z = 0; none: not spatial
 };
 
 struct NrrdHeader {
@@ -35,7 +35,7 @@ struct NrrdHeader {
     bool bigEndian = false;
     std::int64_t lineSkip = 0;
     std::int64_t byteSkip = 0; ///< -1: the voxels are at the end
-    std::string space;         ///< long lower-case name ("left-posterior-superior"); empty when not given
+    std::string space;         ///< long lower-case name ("left-posterior-superior") without "-time"; or empty
     std::string spaceUnit;     ///< if all axes of the space have the same
     glm::dvec3 spaceOrigin{0.0};
     bool hasDirections = false;

@@ -116,6 +116,7 @@ TEST_F(FormatsNrrd, PlacesSpacesInRas) {
     EXPECT_EQ(origin("left-posterior-superior"), glm::dvec3(-10, -20, 30));
     EXPECT_EQ(origin("LAS"), glm::dvec3(-10, 20, 30));
     EXPECT_EQ(origin("3D-left-handed"), glm::dvec3(10, 20, -30));
+    EXPECT_EQ(origin("3D-right-handed"), glm::dvec3(10, 20, 30));
     EXPECT_EQ(origin("scanner-xyz"), glm::dvec3(10, 20, 30));
 
     const auto lps = load(attached(fields + "LPS\nspace units: \"mm\" \"mm\" \"mm\"\n", data)).meta();
@@ -125,6 +126,63 @@ TEST_F(FormatsNrrd, PlacesSpacesInRas) {
     EXPECT_EQ(glm::dvec3(lps.grid.worldFromIndex[1]), glm::dvec3(0, 0, 3));
     EXPECT_EQ(glm::dvec3(lps.grid.worldFromIndex[2]), glm::dvec3(0, -4, 0));
     EXPECT_FALSE(load(attached(fields + "scanner-xyz\n", data)).meta().anatomical);
+}
+
+/// Without directions the axes of the file are those of its space, so a left-handed one is mirrored, too.
+TEST_F(FormatsNrrd, MirrorsLeftHandedSpacesWithoutDirections) {
+    const auto data = bytesOf(ramp<unsigned char>(24));
+    const auto grid = [&](const std::string& fields) {
+        return load(attached("type: uchar\nencoding: raw\n" + fields + "\n", data)).meta();
+    };
+    const auto left = grid("spacings: 2 3 4\naxis mins: 5 6 7\nspace: 3D-left-handed");
+    EXPECT_EQ(glm::dvec3(left.grid.worldFromIndex[0]), glm::dvec3(2, 0, 0));
+    EXPECT_EQ(glm::dvec3(left.grid.worldFromIndex[1]), glm::dvec3(0, 3, 0));
+    EXPECT_EQ(glm::dvec3(left.grid.worldFromIndex[2]), glm::dvec3(0, 0, -4));
+    EXPECT_EQ(glm::dvec3(left.grid.worldFromIndex[3]), glm::dvec3(5, 6, -7));
+    EXPECT_FALSE(left.anatomical);
+    ASSERT_EQ(left.notes.size(), 2U);
+    expectMentions(left.notes[1], "left-handed");
+    EXPECT_EQ(glm::dvec3(grid("spacings: 2 3 4\nspace: 3D-right-handed").grid.worldFromIndex[2]),
+              glm::dvec3(0, 0, 4));
+}
+
+/// Spaces with time: vectors of four numbers, of which the last is time.
+TEST_F(FormatsNrrd, ReadsSpacesWithTime) {
+    const auto values = ramp<unsigned char>(48);
+    const auto text = [&](const std::string& fields) {
+        return "NRRD0004\ntype: uchar\nencoding: raw\ndimension: 4\nsizes: 2 3 4 2\n" + fields + "\n\n" +
+               bytesOf(values);
+    };
+    const std::string vectors = "space directions: (2,0,0,0) (0,3,0,0) (0,0,4,0) (0,0,0,0.5)\n"
+                                "space origin: (10,20,30,1.5)\n"
+                                "space units: \"mm\" \"mm\" \"mm\" \"s\"";
+    for (const auto& [space, mirror] :
+         {std::pair{"LPST", glm::dvec3(-1, -1, 1)}, std::pair{"right-anterior-superior-time", glm::dvec3(1)},
+          std::pair{"left-anterior-superior-time", glm::dvec3(-1, 1, 1)},
+          std::pair{"scanner-xyz-time", glm::dvec3(1)}, std::pair{"3D-right-handed-time", glm::dvec3(1)},
+          std::pair{"3D-left-handed-time", glm::dvec3(1, 1, -1)}}) {
+        const auto loaded = load(write("t.nrrd", text("space: " + std::string(space) + "\n" + vectors)));
+        const auto& meta = loaded.meta();
+        EXPECT_EQ(meta.grid.dims, glm::ivec3(2, 3, 4)) << space;
+        EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[3]), mirror * glm::dvec3(10, 20, 30)) << space;
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_EQ(meta.grid.worldFromIndex[axis][axis], mirror[axis] * (axis + 2.0)) << space;
+        EXPECT_EQ(meta.times, (std::vector<double>{1.5, 2.0})) << space;
+        EXPECT_EQ(meta.lengthUnit, "mm") << space;
+        EXPECT_EQ(loaded.values<unsigned char>(0, 1),
+                  std::vector<unsigned char>(values.begin() + 24, values.end()))
+            << space;
+    }
+    const auto refused = [&](const std::string& fields) {
+        return loadError(write("r.nrrd", text("space: LPST\n" + fields)));
+    };
+    expectMentions(refused("space directions: (2,0,0) (0,3,0) (0,0,4) none"), "space directions");
+    expectMentions(refused("space directions: (2,0,0,0) (0,3,0,0) (0,0,4,1) (0,0,0,1)"),
+                   "space and time at once");
+    expectMentions(refused("space directions: (2,0,0,0) (0,3,0,0) (0,0,4,0) (0,0,0,nan)"),
+                   "space directions");
+    expectMentions(loadError(write("u.nrrd", text("space: sideways-time"))), "sideways-time");
+    expectMentions(loadError(write("u.nrrd", text("space: -time"))), "-time");
 }
 
 TEST_F(FormatsNrrd, PlacesSpacingsMinimaAndCentring) {

@@ -8,9 +8,17 @@ namespace {
 std::string inBrackets(const glm::dvec3& v) { return "(" + text(v, ",") + ")"; }
 
 TEST_F(WorldPhantom, NrrdInEverySpace) {
-    for (const auto& [space, mirror] : {std::pair{"right-anterior-superior", glm::dvec3(1)},
-                                        std::pair{"left-anterior-superior", glm::dvec3(-1, 1, 1)},
-                                        std::pair{"left-posterior-superior", kToLps}}) {
+    struct Space {
+        const char* name;
+        glm::dvec3 mirror;
+        bool anatomical;
+    };
+    for (const auto& [space, mirror, anatomical] :
+         {Space{"right-anterior-superior", glm::dvec3(1), true},
+          Space{"left-anterior-superior", glm::dvec3(-1, 1, 1), true},
+          Space{"left-posterior-superior", kToLps, true}, Space{"scanner-xyz", glm::dvec3(1), false},
+          Space{"3D-right-handed", glm::dvec3(1), false},
+          Space{"3D-left-handed", glm::dvec3(1, 1, -1), false}}) {
         std::string directions;
         for (int axis = 0; axis < 3; ++axis)
             directions += " " + inBrackets(mirror * kDirection[axis] * kSteps[axis]);
@@ -18,7 +26,8 @@ TEST_F(WorldPhantom, NrrdInEverySpace) {
             write("a.nrrd", std::string("NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nendian: "
                                         "little\nencoding: raw\nspace: ") +
                                 space + "\nspace directions:" + directions + "\nspace origin: " +
-                                inBrackets(mirror * kOrigin) + "\n\n" + littleEndian(samples_)));
+                                inBrackets(mirror * kOrigin) + "\n\n" + littleEndian(samples_)),
+            samples_, {kDirection, kOrigin, anatomical, glm::bvec3(false)});
     }
 }
 
