@@ -28,7 +28,7 @@ struct Key {
     const char* doc;
 };
 
-constexpr std::array<Key, 12> kKeys{{
+constexpr std::array<Key, 14> kKeys{{
     {"dims", Kind::Numbers, "--dims", "Samples along x, y, z of files without a header, e.g. 256x256x94"},
     {"type", Kind::Words, "--type", "Their numbers: u8 i8 u16 i16 u32 i32 u64 i64 f32 f64"},
     {"endian", Kind::Words, "--endian", "Their byte order: little or big (default: little)"},
@@ -37,9 +37,13 @@ constexpr std::array<Key, 12> kKeys{{
      "Their interleaved values at each voxel; each becomes a field"},
     {"spacing", Kind::Numbers, "--spacing", "Lengths of the voxel edges, e.g. 0.5,0.5,2, or one for all"},
     {"origin", Kind::Numbers, "--origin", "Position of the first sample in the world, e.g. 0,0,-100"},
+    {"orientation", Kind::Words, "--orientation",
+     "Sides of the patient to which the file's x, y and z lead, where it does not say so, e.g. LPS"},
     {"flip", Kind::Axes, "--flip", "Index axes to mirror, e.g. z or xy"},
     {"periodic", Kind::Axes, "--periodic",
      "Axes that repeat, e.g. xyz; none: not even where the file says so"},
+    {"bit_mask", Kind::Words, "--bit-mask",
+     "The bits of whole numbers that are values, the others being flags, e.g. 0x7fff"},
     {"no_data", Kind::Number, "--no-data", "The number that stands for no value, e.g. -9999"},
     {"resolution", Kind::Number, nullptr, ""},
     {"divide_by_cell_volume", Kind::Truth, nullptr, ""},

@@ -31,11 +31,14 @@ struct ImportOptions {
     int rawComponents = 1;          ///< interleaved values per voxel, one field each
 
     std::optional<glm::dvec3> spacing; ///< lengths of the voxel edges, world units, > 0; directions stay
-    std::optional<glm::dvec3> origin;  ///< world position of sample (0, 0, 0)
-    glm::bvec3 flip{false};            ///< mirrors the volume along an index axis, within its own box
+    std::optional<std::string>
+        orientation; ///< "LPI": where the index axes x, y, z lead: R or L, A or P, S or I, each once
+    std::optional<glm::dvec3> origin; ///< world position of sample (0, 0, 0)
+    glm::bvec3 flip{false};           ///< mirrors the volume along an index axis, within its own box
     std::optional<glm::bvec3> periodic;
-    std::optional<double> noDataValue; ///< this source number becomes NaN
-    std::optional<int> resolution;     ///< of the volume made from a surface: samples along its longest axis
+    std::optional<std::uint64_t> bitMask; ///< these bits of stored whole numbers are kept; not 0
+    std::optional<double> noDataValue;    ///< this source number becomes NaN, after bitMask
+    std::optional<int> resolution; ///< of the volume made from a surface: samples along its longest axis
     std::optional<bool>
         divideByCellVolume; ///< CHGCAR family; by default decided by the name (LOCPOT, ELFCAR: no)
     std::optional<SeriesKind>

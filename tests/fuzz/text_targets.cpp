@@ -76,16 +76,17 @@ FuzzTarget importerMessage() {
 }
 
 FuzzTarget importOptions() {
-    return {"import_options",
-            {R"({"dims": [5, 6, 7], "type": "i16", "endian": "big", "skip_bytes": 3, "components": 2})",
-             R"({"spacing": [1, 2, 3], "origin": [0, 0, 0], "flip": [true, false, false], "periodic": true, )"
-             R"("no_data": -1, "resolution": 64, "divide_by_cell_volume": false})"},
-            [](std::string_view text) {
-                const auto options = import::importOptionsFromJson(store::parseJson(text, "options"));
-                const auto canonical = import::canonicalOptions(options);
-                const auto again = import::importOptionsFromJson(store::parseJson(canonical, "options"));
-                promise(import::canonicalOptions(again) == canonical, "options whose canonical text differs");
-            }};
+    return {
+        "import_options",
+        {R"({"dims": [5, 6, 7], "type": "i16", "endian": "big", "skip_bytes": 3, "components": 2})",
+         R"({"spacing": [1, 2, 3], "origin": [0, 0, 0], "flip": [true, false, false], "periodic": true, )"
+         R"("no_data": -1, "bit_mask": "0x7fff", "orientation": "LPI", "resolution": 64, "divide_by_cell_volume": false})"},
+        [](std::string_view text) {
+            const auto options = import::importOptionsFromJson(store::parseJson(text, "options"));
+            const auto canonical = import::canonicalOptions(options);
+            const auto again = import::importOptionsFromJson(store::parseJson(canonical, "options"));
+            promise(import::canonicalOptions(again) == canonical, "options whose canonical text differs");
+        }};
 }
 
 FuzzTarget formula() {

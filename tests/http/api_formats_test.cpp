@@ -57,10 +57,30 @@ TEST_F(ApiFormats, OptionsDescribeVoxelsWithoutAHeader) {
     EXPECT_EQ(dataset.at("range"), (json{0.0, 22.0})) << "23 is no value";
 }
 
+TEST_F(ApiFormats, FlagsAreMaskedAndSidesNamed) {
+    std::string bytes;
+    for (int i = 0; i < 24; ++i)
+        bytes += std::string(1, static_cast<char>(i)) + (i % 3 == 0 ? '\x80' : '\0');
+    write("flags.bin", bytes);
+    for (const json& mask : {json("0x7fff"), json(32767)}) {
+        const auto dataset = opened(
+            "flags.bin", {{"dims", {4, 3, 2}}, {"type", "i16"}, {"bit_mask", mask}, {"orientation", "lpi"}});
+        ASSERT_EQ(dataset.value("state", ""), "ready") << dataset;
+        EXPECT_EQ(dataset.at("range"), (json{0.0, 23.0}));
+        EXPECT_EQ(dataset.at("anatomical"), true);
+        EXPECT_EQ(dataset.at("direction"), (json{{-1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}}));
+    }
+}
+
 TEST_F(ApiFormats, OptionsThatAreWrongAreNamed) {
     write("scan.bin", "x");
-    for (const auto& [member, value] : std::vector<std::pair<std::string, json>>{
-             {"dims", {4, 3}}, {"type", "u17"}, {"spacing", {1, 0, 1}}, {"flip", "x"}, {"colour", 1}}) {
+    for (const auto& [member, value] : std::vector<std::pair<std::string, json>>{{"dims", {4, 3}},
+                                                                                 {"type", "u17"},
+                                                                                 {"spacing", {1, 0, 1}},
+                                                                                 {"flip", "x"},
+                                                                                 {"bit_mask", "bits"},
+                                                                                 {"orientation", "LPL"},
+                                                                                 {"colour", 1}}) {
         const auto answer = open("scan.bin", {{member, value}});
         EXPECT_EQ(answer.status, 400) << member << answer.body;
         EXPECT_EQ(answer.json().value("field", ""), "options." + member) << answer.body;

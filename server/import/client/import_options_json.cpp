@@ -2,6 +2,9 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -81,6 +84,38 @@ SeriesKind series(const std::string& member, const json& j) {
     reject(member, "it must be \"stack\" or \"steps\"");
 }
 
+/// The letters of three sides that span space, in upper case.
+std::string orientation(const std::string& member, const json& j) {
+    auto letters = j.is_string() ? j.get<std::string>() : std::string();
+    std::transform(letters.begin(), letters.end(), letters.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+    const auto has = [&](const char* sides) {
+        return std::count_if(letters.begin(), letters.end(),
+                             [&](char letter) { return letter == sides[0] || letter == sides[1]; }) == 1;
+    };
+    if (letters.size() != 3 || !has("RL") || !has("AP") || !has("SI"))
+        reject(member,
+               "it must be three letters, one of R and L, one of A and P, one of S and I, in the order "
+               "of the file's axes, such as \"LPS\"");
+    return letters;
+}
+
+std::uint64_t bitMask(const std::string& member, const json& j) {
+    std::uint64_t mask = 0;
+    if (j.is_string()) {
+        const auto text = j.get<std::string>();
+        const bool hex = text.starts_with("0x") || text.starts_with("0X");
+        const auto* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data() + (hex ? 2 : 0), end, mask, hex ? 16 : 10);
+        if (read.ec != std::errc{} || read.ptr != end) mask = 0;
+    } else if (j.is_number_unsigned() || (j.is_number_integer() && j.get<std::int64_t>() > 0)) {
+        mask = j.get<std::uint64_t>();
+    }
+    if (mask == 0)
+        reject(member, "it must be a whole number of up to 64 bits that is not 0, such as \"0x7fff\"");
+    return mask;
+}
+
 using Setter = std::function<void(ImportOptions&, const std::string&, const json&)>;
 
 const std::map<std::string, Setter>& setters() {
@@ -96,6 +131,8 @@ const std::map<std::string, Setter>& setters() {
          [](auto& o, auto& m, auto& j) { o.rawComponents = static_cast<int>(integer(m, j, 1, 1024)); }},
         {"spacing", [](auto& o, auto& m, auto& j) { o.spacing = spacing(m, j); }},
         {"origin", [](auto& o, auto& m, auto& j) { o.origin = numbers(m, j); }},
+        {"orientation", [](auto& o, auto& m, auto& j) { o.orientation = orientation(m, j); }},
+        {"bit_mask", [](auto& o, auto& m, auto& j) { o.bitMask = bitMask(m, j); }},
         {"flip", [](auto& o, auto& m, auto& j) { o.flip = booleans(m, j); }},
         {"periodic",
          [](auto& o, auto& m, auto& j) {
@@ -145,6 +182,8 @@ std::string canonicalOptions(const ImportOptions& o) {
     if (o.rawComponents != 1) j["components"] = o.rawComponents;
     if (o.spacing) j["spacing"] = vectorJson(*o.spacing);
     if (o.origin) j["origin"] = vectorJson(*o.origin);
+    if (o.orientation) j["orientation"] = *o.orientation;
+    if (o.bitMask) j["bit_mask"] = *o.bitMask;
     if (o.flip != glm::bvec3(false)) j["flip"] = booleansJson(o.flip);
     if (o.periodic) j["periodic"] = booleansJson(*o.periodic);
     if (o.noDataValue) j["no_data"] = *o.noDataValue;

@@ -14,8 +14,10 @@ namespace voxsheet::import {
 ///   for files
 ///     without a header
 ///   "spacing" [x, y, z] > 0, "origin" [x, y, z]: world units
+///   "orientation" "LPI": to which sides of a patient the index axes x, y and z lead
 ///   "flip" [x, y, z] of booleans: mirrors along an index axis
 ///   "periodic" boolean, or [x, y, z] of booleans
+///   "bit_mask" whole number above 0, or its text ("0x7fff"): the bits of whole numbers that are values
 ///   "no_data" number: becomes NaN
 ///   "resolution" 16 … 256: samples along the longest axis of the volume made from a surface (STL, PLY, OBJ)
 ///   "divide_by_cell_volume" boolean: CHGCAR family

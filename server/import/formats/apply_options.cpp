@@ -1,6 +1,7 @@
 #include "import/formats/own_readers.h"
 
 #include "base/errors.h"
+#include "import/formats/bit_mask.h"
 
 #include <cmath>
 #include <cstring>
@@ -20,6 +21,46 @@ void setSpacing(Grid& grid, const glm::dvec3& spacing) {
                 .withField("spacing");
         grid.worldFromIndex[axis] *= spacing[axis] / before[axis];
     }
+}
+
+glm::dvec3 towards(char side) {
+    switch (side) {
+    case 'R':
+        return {1, 0, 0};
+    case 'L':
+        return {-1, 0, 0};
+    case 'A':
+        return {0, 1, 0};
+    case 'P':
+        return {0, -1, 0};
+    case 'S':
+        return {0, 0, 1};
+    default:
+        return {0, 0, -1};
+    }
+}
+
+/// The grid's axes lead to these sides; the first sample and the lengths of the voxel edges stay.
+void orient(DatasetMeta& meta, const std::string& sides) {
+    auto& grid = meta.grid;
+    const auto refuse = [&](const std::string& why) {
+        throw InvalidInput("option orientation " + sides, why, "leave it out")
+            .withField("options.orientation");
+    };
+    if (meta.crystal) refuse("a crystal has no sides of a patient");
+    const auto spacing = spacingWorld(grid);
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        const auto next = (axis + 1) % 3;
+        const auto along =
+            glm::dot(glm::dvec3(grid.worldFromIndex[axis]), glm::dvec3(grid.worldFromIndex[next]));
+        if (std::abs(along) > 1e-6 * spacing[axis] * spacing[next])
+            refuse("the axes of the file's grid are not perpendicular");
+    }
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        grid.worldFromIndex[axis] =
+            glm::dvec4(spacing[axis] * towards(sides[static_cast<std::size_t>(axis)]), 0.0);
+    meta.anatomical = true;
+    if (meta.lengthUnit.empty()) meta.lengthUnit = "mm";
 }
 
 void setOrigin(Grid& grid, const glm::dvec3& origin) {
@@ -100,23 +141,11 @@ std::vector<std::byte> withoutValue(std::span<const std::byte> in, ScalarType fr
     return out;
 }
 
-} // namespace
-
-ArraySink applyOptions(SourceHeader& header, const ImportOptions& options, ArraySink sink) {
-    auto& grid = header.meta.grid;
-    const Grid inFile = grid;
-    if (options.spacing) setSpacing(grid, *options.spacing);
-    if (options.origin) setOrigin(grid, *options.origin);
-    if (options.periodic) grid.periodic = *options.periodic;
-    flipAxes(grid, options.flip);
-    validateGrid(grid);
-    if (header.meta.crystal) moveWithGrid(*header.meta.crystal, inFile, grid);
-    if (!options.noDataValue) return sink;
-
-    const double noData = *options.noDataValue;
+/// Integer fields that can hold the number become floats.
+ArraySink withoutNoData(DatasetMeta& meta, double noData, ArraySink sink) {
     std::vector<std::optional<ScalarType>>
         changed; // the stored type in the file, for fields that are converted
-    for (auto& field : header.meta.fields) {
+    for (auto& field : meta.fields) {
         const bool possible = representable(field.storedType, noData);
         changed.push_back(possible ? std::optional(field.storedType) : std::nullopt);
         if (possible) field.storedType = floatFor(field.storedType);
@@ -129,6 +158,35 @@ ArraySink applyOptions(SourceHeader& header, const ImportOptions& options, Array
         else
             sink(field, step, withoutValue(voxels, *from, noData));
     };
+}
+
+ArraySink withBitsOnly(const std::vector<ScalarType>& types, std::uint64_t mask, ArraySink sink) {
+    return [types, mask, sink = std::move(sink)](int field, int step, std::vector<std::byte>&& voxels) {
+        keepBits(voxels, types.at(static_cast<std::size_t>(field)), mask);
+        sink(field, step, std::move(voxels));
+    };
+}
+
+} // namespace
+
+ArraySink applyOptions(SourceHeader& header, const ImportOptions& options, ArraySink sink) {
+    auto& grid = header.meta.grid;
+    const Grid inFile = grid;
+    if (options.spacing) setSpacing(grid, *options.spacing);
+    if (options.orientation) orient(header.meta, *options.orientation);
+    if (options.origin) setOrigin(grid, *options.origin);
+    if (options.periodic) grid.periodic = *options.periodic;
+    flipAxes(grid, options.flip);
+    validateGrid(grid);
+    if (header.meta.crystal) moveWithGrid(*header.meta.crystal, inFile, grid);
+
+    std::vector<ScalarType> typesInFile;
+    for (const auto& field : header.meta.fields)
+        typesInFile.push_back(field.storedType);
+    if (options.bitMask) checkBitMask(header.meta, *options.bitMask);
+    if (options.noDataValue) sink = withoutNoData(header.meta, *options.noDataValue, std::move(sink));
+    if (options.bitMask) sink = withBitsOnly(typesInFile, *options.bitMask, std::move(sink));
+    return sink;
 }
 
 } // namespace voxsheet::import

@@ -52,7 +52,8 @@ void addLabelFiles(const fs::path& file, SourceHeader& header) {
         return;
     }
     if (!header.meta.labels.empty()) return;
-    constexpr std::array endings{".label", ".lut", ".ctbl", ".tsv", ".txt", "_ColorTable.ctbl"};
+    constexpr std::array endings{".label", ".lut", ".ctbl",           ".tsv", ".txt", ".niml.lt",
+                                 ".lt",    ".xml", "_ColorTable.ctbl"};
     for (const auto* ending : endings) {
         try {
             const auto found = besideIfThere(file, stem + ending);

@@ -1,5 +1,6 @@
 #include "import/formats/label_lookup.h"
 
+#include "import/formats/label_markup.h"
 #include "import/formats/label_set.h"
 #include "import/formats/number_text.h"
 
@@ -118,6 +119,10 @@ std::optional<LabelLookup> parseLabelLookup(std::string_view text) {
     auto rest = text;
     const auto first = nextLine(rest);
     if (!first) return std::nullopt;
+    if (trimmed(*first).starts_with('<')) {
+        const auto niml = parseNimlLabels(text);
+        return niml ? niml : parseFslAtlas(trimmed(text));
+    }
     if (const auto columns = TsvColumns::from(*first))
         return readRows(rest, [&](std::string_view line) { return columns->row(line); });
     if (itkSnapRow(*first)) return readRows(text, itkSnapRow);

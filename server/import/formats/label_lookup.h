@@ -7,6 +7,7 @@
 //   BIDS         index <tab> name <tab> color          a header line with at least index and name (BIDS 1.9,
 //                                                      "Imaging derivatives", *_dseg.tsv); colours are
 //                                                      #rrggbb
+//   AFNI, FSL    tables between angle brackets: label_markup.h
 #pragma once
 
 #include "volume/dataset.h"
@@ -20,7 +21,7 @@ namespace voxsheet::import {
 
 struct LabelLookup {
     std::vector<LabelMeta> labels; ///< by value, each once
-    std::size_t linesLeftOut = 0;  ///< that are no row of the table, or name a value again
+    std::size_t linesLeftOut = 0;  ///< or rows that are none of the table, or name a value again
 };
 
 /// Empty lines and lines that begin with '#' say nothing. Nothing at all if the first other line is none of

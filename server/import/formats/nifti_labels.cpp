@@ -1,6 +1,7 @@
 #include "import/formats/nifti_labels.h"
 
 #include "base/errors.h"
+#include "import/formats/label_markup.h"
 #include "import/formats/label_set.h"
 #include "import/formats/number_text.h"
 #include "import/formats/xml_walk.h"
@@ -92,6 +93,21 @@ std::int32_t integerAt(std::string_view bytes, std::size_t at, bool bigEndian) {
     return static_cast<std::int32_t>(value);
 }
 
+/// Nothing if the content is no table at all. A damaged one has no labels.
+std::optional<LabelLookup> tableIn(std::string_view content, const std::string& fileName,
+                                   std::vector<std::string>& notes) {
+    if (const auto afni = parseAfniAttributes(content)) return afni;
+    if (content.find("<CaretExtension") == std::string_view::npos) return std::nullopt;
+    LabelTableParser parser(fileName);
+    try {
+        parser.parse(content);
+    } catch (const InvalidInput& error) {
+        notes.push_back("The table of labels in its header was left out: " + error.why() + ".");
+        return LabelLookup{};
+    }
+    return LabelLookup{parser.labels().list(), parser.leftOut()};
+}
+
 } // namespace
 
 std::vector<LabelMeta> niftiLabels(const InputFile& file, Compression compression, const NiftiHeader& header,
@@ -107,18 +123,12 @@ std::vector<LabelMeta> niftiLabels(const InputFile& file, Compression compressio
         auto content = rest.substr(head, static_cast<std::size_t>(size) - head);
         rest.remove_prefix(static_cast<std::size_t>(size));
         content = trimmed(content.substr(0, content.find('\0'))); // filled up to 16 bytes
-        if (content.find("<CaretExtension") == std::string_view::npos) continue;
-        LabelTableParser parser(file.name());
-        try {
-            parser.parse(content);
-        } catch (const InvalidInput& error) {
-            notes.push_back("The table of labels in its header was left out: " + error.why() + ".");
-            return {};
-        }
-        if (parser.leftOut() > 0)
-            notes.push_back(std::to_string(parser.leftOut()) +
+        const auto table = tableIn(content, file.name(), notes);
+        if (!table) continue;
+        if (table->linesLeftOut > 0)
+            notes.push_back(std::to_string(table->linesLeftOut) +
                             " labels of its header were left out: their values are missing or given twice.");
-        return parser.labels().list();
+        return table->labels;
     }
     return {};
 }

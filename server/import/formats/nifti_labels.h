@@ -14,8 +14,9 @@ namespace voxsheet::import {
 /// TotalSegmentator (code 0) write it,
 ///   <CaretExtension><VolumeInformation Index="0"><LabelTable>
 ///     <Label Key="1" Red="1" Green="0" Blue="0" Alpha="1">spleen</Label> …
-/// The first table counts. No labels if there is none, or none that can be read, which is said in `notes`.
-/// \param file  the one that holds the header. Throws IoError.
+/// or the attributes of AFNI (code 4; label_markup.h). The first table counts. No labels if there is none, or
+/// none that can be read, which is said in `notes`. \param file  the one that holds the header. Throws
+/// IoError.
 [[nodiscard]] std::vector<LabelMeta> niftiLabels(const InputFile& file, Compression compression,
                                                  const NiftiHeader& header, std::vector<std::string>& notes);
 

@@ -16,9 +16,10 @@ namespace voxsheet::import {
 /// pointer).
 [[nodiscard]] FileHead readFileHead(const std::filesystem::path& path);
 
-/// The options that hold for every format (spacing, origin, flip, periodic, noDataValue): changes the header
-/// (noDataValue makes integer fields F32 or F64) and returns the sink to hand to readData, which converts
-/// arrays on their way to `sink`. Throws InvalidInput if an option does not fit.
+/// The options that hold for every format (spacing, orientation, origin, flip, periodic, bitMask,
+/// noDataValue): changes the header (noDataValue makes integer fields F32 or F64) and returns the sink to
+/// hand to readData, which converts arrays on their way to `sink`. Throws InvalidInput if an option does not
+/// fit.
 [[nodiscard]] ArraySink applyOptions(SourceHeader& header, const ImportOptions& options, ArraySink sink);
 
 } // namespace voxsheet::import

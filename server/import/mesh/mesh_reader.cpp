@@ -23,6 +23,7 @@ void refuseOtherOptions(const ImportOptions& options) {
     };
     if (options.spacing) refuse("spacing");
     if (options.periodic) refuse("periodic");
+    if (options.bitMask) refuse("bit_mask");
     if (options.noDataValue) refuse("no_data");
 }
 

@@ -22,14 +22,15 @@ ImportArguments parsed(std::vector<std::string> words) {
 }
 
 TEST(ImportArguments, EveryOptionOfTheApiIsThere) {
-    const auto arguments =
-        parsed({"--dims", "4x5x6",        "--type",     "i16",       "--endian",  "big",      "--skip-bytes",
-                "12",     "--components", "2",          "--spacing", "0.5",       "--origin", "-1,2e1,3",
-                "--flip", "xz",           "--periodic", "none",      "--no-data", "-9999"});
+    const auto arguments = parsed(
+        {"--dims",       "4x5x6", "--type",    "i16",   "--endian",   "big",      "--skip-bytes",  "12",
+         "--components", "2",     "--spacing", "0.5",   "--origin",   "-1,2e1,3", "--flip",        "xz",
+         "--periodic",   "none",  "--no-data", "-9999", "--bit-mask", "0x7fff",   "--orientation", "lpi"});
     EXPECT_EQ(importOptionsFor(arguments, "a.raw"), json::parse(R"({
         "dims": [4, 5, 6], "type": "i16", "endian": "big", "skip_bytes": 12, "components": 2,
         "spacing": [0.5, 0.5, 0.5], "origin": [-1, 20.0, 3], "flip": [true, false, true],
-        "periodic": [false, false, false], "no_data": -9999})"));
+        "periodic": [false, false, false], "no_data": -9999,
+        "bit_mask": "0x7fff", "orientation": "lpi"})"));
 }
 
 TEST(ImportArguments, APatternNamesSomeFilesAndALaterSettingWins) {
@@ -50,6 +51,9 @@ TEST(ImportArguments, MistakesNameTheOption) {
                                                           {"--spacing", "-1"},
                                                           {"--flip", "w"},
                                                           {"--no-data", "nothing"},
+                                                          {"--bit-mask", "0"},
+                                                          {"--bit-mask", "0x7fffq"},
+                                                          {"--orientation", "LRS"},
                                                           {"--import", "dims"},
                                                           {"--import", "colour=red"}}) {
         try {

@@ -93,6 +93,60 @@ TEST_F(FormatsOptions, TurnsTheNoDataValueIntoNan) {
     EXPECT_TRUE(std::isnan(load(nrrd("float", floats), options).values<float>()[4]));
 }
 
+TEST_F(FormatsOptions, KeepsTheBitsThatAreValues) {
+    ImportOptions options;
+    options.bitMask = 0x7fff;
+    std::vector<short> flagged;
+    for (int i = 0; i < 24; ++i)
+        flagged.push_back(static_cast<short>(i % 2 == 0 ? i * 100 : (i * 100) | 0x8000));
+    const auto path = nrrd("short", flagged);
+    const auto loaded = load(path, options);
+    EXPECT_EQ(loaded.meta().fields[0].storedType, ScalarType::I16);
+    expectMentions(loaded.meta().notes.back(), "0x7fff");
+    const auto values = loaded.values<short>();
+    for (int i = 0; i < 24; ++i)
+        EXPECT_EQ(values[static_cast<std::size_t>(i)], i * 100);
+    // What the mask leaves is compared with the number for no value.
+    options.noDataValue = 300.0;
+    const auto floats = load(path, options).values<float>();
+    EXPECT_TRUE(std::isnan(floats[3])) << "stored as 300 with the flag";
+    EXPECT_EQ(floats[5], 500.0F);
+    options.noDataValue.reset();
+
+    options.bitMask = 0xf000'0000'0000'000eU; // beyond a type's bits it does nothing
+    const auto bytes = load(nrrd("uchar", ramp<unsigned char>(24)), options).values<unsigned char>();
+    const auto longs = load(nrrd("longlong", std::vector<long>(24, -1L)), options).values<long>();
+    for (std::size_t i = 0; i < 24; ++i)
+        EXPECT_EQ(bytes[i], ramp<unsigned char>(24)[i] & 0x0e);
+    EXPECT_EQ(static_cast<unsigned long>(longs[0]), *options.bitMask);
+
+    expectMentions(loadError(nrrd("float", ramp<float>(24)), options), "only floats");
+    options.bitMask = 0xff00;
+    expectMentions(loadError(nrrd("uchar", ramp<unsigned char>(24)), options), "leaves nothing");
+}
+
+TEST_F(FormatsOptions, OrientsWhatDoesNotSayItsSides) {
+    ImportOptions options;
+    options.orientation = "PIR";
+    const auto meta =
+        load(nrrd("uchar", ramp<unsigned char>(24), "spacings: 2 3 4\naxis mins: 5 6 7\n"), options).meta();
+    EXPECT_TRUE(meta.anatomical);
+    EXPECT_EQ(meta.lengthUnit, "mm");
+    EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[0]), glm::dvec3(0, -2, 0));
+    EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[1]), glm::dvec3(0, 0, -3));
+    EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[2]), glm::dvec3(4, 0, 0));
+    EXPECT_EQ(glm::dvec3(meta.grid.worldFromIndex[3]), glm::dvec3(5, 6, 7));
+    for (const auto& [letters, place] :
+         {std::pair{"LAS", glm::dvec3(-1, 1, 1)}, std::pair{"RPI", glm::dvec3(1, -1, -1)}}) {
+        options.orientation = letters;
+        const auto grid = load(nrrd("uchar", ramp<unsigned char>(24)), options).meta().grid;
+        EXPECT_EQ(glm::dvec3(grid.worldFromIndex * glm::dvec4(1, 1, 1, 1)), place) << letters;
+    }
+    const auto sheared =
+        nrrd("uchar", ramp<unsigned char>(24), "space: LPS\nspace directions: (3,0,0) (1,0,3) (0,3,0)\n");
+    expectMentions(loadError(sheared, options), "not perpendicular");
+}
+
 TEST_F(FormatsOptions, OneVolumeIsTheSameFromThreeFormats) {
     const auto values = ramp<short>(24);
     // RAS+ axes: i to the back-right, j up, k to the left; the others say the same in LPS+.

@@ -24,6 +24,18 @@ constexpr const char* kBids = "index\tname\tabbreviation\tcolor\tmapping\n"
                               "2\tWhite Matter\tWM\t#00ff00\t2\n"
                               "1\tGray Matter\tGM\tn/a\t1\n";
 
+constexpr const char* kAfni = "<VALUE_LABEL_DTABLE\n ni_type=\"2*String\"\n ni_dimen=\"3\" >\n"
+                              " \"17\" \"Left-Hippocampus\"\n \"0\" 'Unknown'\n"
+                              " 53 \"R &amp; &lt;hippo&gt;\"\n</VALUE_LABEL_DTABLE>\n";
+std::string fslAtlas(const std::string& type, const std::string& labels) {
+    return "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<atlas version=\"1.0\"><header><name>A "
+           "B</name><type>" +
+           type + "</type></header><data>\n" + labels + "</data></atlas>\n";
+}
+constexpr const char* kFslLabels = "<label index=\"0\" x=\"48\" y=\"94\" z=\"35\">Frontal Pole</label>\n"
+                                   "<label index=\"1\" x=\"25\" y=\"70\" z=\"32\" color=\"#ff0033\">Insular "
+                                   "&amp; more</label>\n";
+
 class LabelFiles : public FormatsTest {
 protected:
     /// The labels of a volume of this name, after what lies beside it.
@@ -78,10 +90,50 @@ TEST(LabelLookup, TablesOfBids) {
     EXPECT_EQ(reordered->labels.at(0).name, "liver");
 }
 
+TEST(LabelLookup, TablesOfAfni) {
+    for (const auto& text : {std::string(kAfni), "# a comment\n" + std::string(kAfni)}) {
+        const auto lookup = parseLabelLookup(text);
+        ASSERT_TRUE(lookup);
+        ASSERT_EQ(lookup->labels.size(), 3U);
+        EXPECT_EQ(lookup->linesLeftOut, 0U);
+        EXPECT_EQ(lookup->labels[0].name, "Unknown");
+        EXPECT_EQ(lookup->labels[1].value, 17);
+        EXPECT_EQ(lookup->labels[1].name, "Left-Hippocampus");
+        EXPECT_FALSE(lookup->labels[1].rgb);
+        EXPECT_EQ(lookup->labels[2].name, "R & <hippo>");
+    }
+    const auto odd = parseLabelLookup("<VALUE_LABEL_DTABLE >\"x\" \"a\" \"2\" \"b\" \"2\" \"c\" \"3\"");
+    ASSERT_TRUE(odd);
+    ASSERT_EQ(odd->labels.size(), 1U);
+    EXPECT_EQ(odd->labels[0].name, "b");
+    EXPECT_EQ(odd->linesLeftOut, 3U) << "no number, given twice, without a name";
+}
+
+TEST(LabelLookup, AtlasesOfFsl) {
+    const auto probable = parseLabelLookup(fslAtlas("Probabilistic", kFslLabels));
+    ASSERT_TRUE(probable);
+    ASSERT_EQ(probable->labels.size(), 2U);
+    EXPECT_EQ(probable->labels[0].value, 1) << "index 0 is value 1 where probability is largest";
+    EXPECT_EQ(probable->labels[0].name, "Frontal Pole");
+    EXPECT_EQ(probable->labels[1].value, 2);
+    EXPECT_EQ(probable->labels[1].name, "Insular & more");
+    EXPECT_EQ(probable->labels[1].rgb, glm::dvec3(1.0, 0.0, 0.2));
+    EXPECT_EQ(parseLabelLookup(fslAtlas("Label", kFslLabels))->labels[1].value, 1) << "an index is a value";
+    const auto given =
+        parseLabelLookup(fslAtlas("Label", "<label index=\"0\" value=\"70\">a</label><label>b</label>"));
+    EXPECT_EQ(given->labels.at(0).value, 70);
+    EXPECT_EQ(given->linesLeftOut, 1U);
+}
+
 TEST(LabelLookup, OtherTextsAreNoTables) {
+    auto damaged = fslAtlas("Label", kFslLabels);
+    damaged.resize(damaged.size() - 12);
+    EXPECT_FALSE(parseLabelLookup(damaged));
+    EXPECT_FALSE(parseLabelLookup("<!DOCTYPE a [<!ENTITY b \"c\">]>" + fslAtlas("Label", "").substr(45)));
     for (const auto* text :
          {"", "\n\n# only a comment\n", "A scan of a head, 2019.\n", "1 2 3 4 5 6\n", "1 liver\n",
-          "1 liver 300 0 0 0\n", "1.5 liver 255 0 0 0\n", "1 255 0 0 1 1 \"two switches are missing\"\n",
+          "1 liver 300 0 0 0\n", "<svg><label index=\"1\">a</label></svg>", "<VALUE_LABEL_DTABLE",
+          "<VALUE_LABEL_DTABLE />", "1.5 liver 255 0 0 0\n", "1 255 0 0 1 1 \"two switches are missing\"\n",
           "1 255 0 0 1 1 1 \"more after it\" x\n", "onset\tduration\n1\t2\n",
           "#!ascii label\n1 2 3.5 4.5 0\n"})
         EXPECT_FALSE(parseLabelLookup(text)) << text;
@@ -101,7 +153,8 @@ TEST(LabelLookup, LinesThatAreNoRowsAreCounted) {
 }
 
 TEST_F(LabelFiles, EachNameBesideAVolumeIsTried) {
-    for (const std::string ending : {".label", ".lut", ".ctbl", ".tsv", ".txt", "_ColorTable.ctbl"}) {
+    for (const std::string ending :
+         {".label", ".lut", ".ctbl", ".tsv", ".txt", ".niml.lt", ".lt", ".xml", "_ColorTable.ctbl"}) {
         const auto table = write("scan.v2" + ending, "4 region" + ending + " 1 2 3 0\n");
         for (const auto* volume : {"scan.v2.nii.gz", "scan.v2.nrrd", "scan.v2.mha", "scan.v2.tif"}) {
             const auto header = headerOf(volume);

@@ -83,6 +83,28 @@ TEST_F(NiftiLabels, TheFirstOfSeveralTablesCounts) {
     expectLabels(load(write("x.nii", file(1, false, {{30, xml}}))), "two tables");
 }
 
+TEST_F(NiftiLabels, AttributesOfAfniHoldATable) {
+    const std::string attributes =
+        "<?xml version='1.0' ?>\n<AFNI_attributes ni_form=\"ni_group\" >\n"
+        "<AFNI_atr ni_type=\"String\" ni_dimen=\"1\" atr_name=\"HISTORY_NOTE\" > \"made by hand\" "
+        "</AFNI_atr>\n"
+        "<AFNI_atr ni_type=\"String\" ni_dimen=\"1\" atr_name=\"VALUE_LABEL_DTABLE\" >\n"
+        " \"&lt;VALUE_LABEL_DTABLE&#x0a; ni_type=&quot;2*String&quot; &gt;&#x0a; &quot;1&quot; "
+        "&quot;spleen&quot;"
+        "&#x0a; &quot;7&quot; &quot;disc &amp;amp; "
+        "L1&quot;&#x0a;&lt;/VALUE_LABEL_DTABLE&gt;&#x0a;\"\n</AFNI_atr>\n"
+        "</AFNI_attributes>";
+    const auto loaded = load(write("x.nii", file(1, false, {{4, attributes}})));
+    const auto& labels = loaded.meta().labels;
+    ASSERT_EQ(labels.size(), 2U);
+    EXPECT_EQ(labels[0].value, 1);
+    EXPECT_EQ(labels[0].name, "spleen");
+    EXPECT_EQ(labels[1].name, "disc & L1");
+    EXPECT_FALSE(labels[1].rgb);
+    const auto cut = attributes.substr(0, attributes.find("spleen"));
+    EXPECT_TRUE(load(write("x.nii", file(1, false, {{4, cut}}))).meta().labels.empty());
+}
+
 TEST_F(NiftiLabels, DamagedTablesAreSaidAndTheVolumeIsRead) {
     expectMentions(note(table(kLabels + "<Label>")), "left out: line 1: mismatched tag");
     expectMentions(note("<CaretExtension><LabelTable>"), "left out");

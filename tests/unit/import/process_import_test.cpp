@@ -168,7 +168,15 @@ TEST_F(ProcessImport, OptionsAreChecked) {
                                                              {"endian", 3},
                                                              {"colour", 1},
                                                              {"skip_bytes", -1},
-                                                             {"no_data", "x"}}) {
+                                                             {"no_data", "x"},
+                                                             {"bit_mask", 0},
+                                                             {"bit_mask", -1},
+                                                             {"bit_mask", 1.5},
+                                                             {"bit_mask", "0x"},
+                                                             {"bit_mask", "0x10000000000000000"},
+                                                             {"orientation", "LP"},
+                                                             {"orientation", "LPX"},
+                                                             {"orientation", 3}}) {
         try {
             (void)import(file, {{member, value}});
             ADD_FAILURE() << member;
