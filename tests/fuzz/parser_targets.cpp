@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "import/formats/label_lookup.h"
 #include "import/formats/label_names.h"
-#include "import/formats/patch_resampling.h"
+#include "import/formats/point_resampling.h"
 #include "import/vtk_xml/amr_header.h"
 #include "import/vtk_xml/vti_header.h"
 #include "scratch_folder.h"
@@ -29,14 +29,18 @@ void checkLabels(const std::vector<LabelMeta>& labels) {
 }
 
 FuzzTarget labelLookup() {
-    return {"label_lookup",
-            {"# ITK-SnAP Label Description File\n 0 0 0 0 0 0 0 \"Clear Label\"\n 7 255 0 51 1 1 1 \"left "
-             "\"L\"\"\n",
-             "#No. Label Name: R G B A\n0 Unknown 0 0 0 0\n14 3rd-Ventricle 204 182 142 0\n9 a b 1 2 3 0\n",
-             "index\tname\tabbreviation\tcolor\n2\tWhite Matter\tWM\t#00ff00\n1\tGray\tGM\tn/a\n"},
-            [](std::string_view text) {
-                if (const auto lookup = parseLabelLookup(text)) checkLabels(lookup->labels);
-            }};
+    return {
+        "label_lookup",
+        {"# ITK-SnAP Label Description File\n 0 0 0 0 0 0 0 \"Clear Label\"\n 7 255 0 51 1 1 1 \"left "
+         "\"L\"\"\n",
+         "#No. Label Name: R G B A\n0 Unknown 0 0 0 0\n14 3rd-Ventricle 204 182 142 0\n9 a b 1 2 3 0\n",
+         "index\tname\tabbreviation\tcolor\n2\tWhite Matter\tWM\t#00ff00\n1\tGray\tGM\tn/a\n",
+         "<VALUE_LABEL_DTABLE ni_type=\"2*String\">\"0\" \"Unknown\" 17 'L &amp; R'</VALUE_LABEL_DTABLE>\n",
+         "<atlas><header><type>Probabilistic</type></header><data><label index=\"0\" "
+         "color=\"#ff0033\">Frontal Pole</label><label value=\"7\">b</label></data></atlas>\n"},
+        [](std::string_view text) {
+            if (const auto lookup = parseLabelLookup(text)) checkLabels(lookup->labels);
+        }};
 }
 
 FuzzTarget labelSidecar() {
@@ -106,6 +110,17 @@ FuzzTarget amrHeader() {
 }
 
 /// Geometry is no text, but comes from files all the same: numbers of one byte each.
+/// Of patches whose values are all 7.
+void paintAll(const Resampling& resampling, const std::vector<CellPatch>& all) {
+    promise(sampleCount(resampling.grid().dims) <= (1 << 20), "a grid beyond the bound");
+    auto samples = resampling.blank(ScalarType::U8);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::vector<std::uint8_t> values(static_cast<std::size_t>(sampleCount(all[i].dims)),
+                                               std::uint8_t{7});
+        resampling.paint(i, std::as_bytes(std::span(values)), ScalarType::U8, samples);
+    }
+}
+
 FuzzTarget patches() {
     return {"patch_resampling",
             {std::string("\x00\x02\x00\x00\x00\x02\x02\x01\x01\x01\x02\x00\x00\x02\x02\x02", 16)},
@@ -123,14 +138,8 @@ FuzzTarget patches() {
                     all.push_back(patch);
                 }
                 if (all.empty()) return;
-                std::vector<std::vector<std::uint8_t>> values;
-                for (const auto& patch : all)
-                    values.emplace_back(static_cast<std::size_t>(sampleCount(patch.dims)), std::uint8_t{7});
-                const PatchResampling resampling("input", all);
-                promise(sampleCount(resampling.grid().dims) <= (1 << 20), "a grid beyond the bound");
-                auto cells = resampling.blank(ScalarType::U8);
-                for (std::size_t i = 0; i < all.size(); ++i)
-                    resampling.paint(i, std::as_bytes(std::span(values[i])), ScalarType::U8, cells);
+                paintAll(PatchResampling("input", all), all);
+                paintAll(PointResampling("input", all), all);
             }};
 }
 

@@ -16,24 +16,74 @@ constexpr double kMostCells = 1U << 27;
 constexpr double kCellsForAll = 1U << 20;
 constexpr double kMostPerCell = 64.0;
 
+bool overlap(const CellPatch& a, const CellPatch& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = std::max(a.low[axis], b.low[axis]);
+        const double high = std::min(a.low[axis] + a.cellSize[axis] * a.dims[axis],
+                                     b.low[axis] + b.cellSize[axis] * b.dims[axis]);
+        if (high - low < kRounding * a.cellSize[axis]) return false;
+    }
+    return true;
+}
+
 } // namespace
 
-PatchResampling::PatchResampling(const std::string& name, std::vector<CellPatch> patches)
-    : patches_(std::move(patches)) {
-    low_ = glm::dvec3(std::numeric_limits<double>::infinity());
-    high_ = -low_;
+void Resampling::checkLevels(const std::string& name, const std::vector<CellPatch>& patches) {
     const CellPatch* ofLevel = nullptr;
-    for (const auto& patch : patches_) {
-        low_ = glm::min(low_, patch.low);
-        high_ = glm::max(high_, patch.low + patch.cellSize * glm::dvec3(patch.dims));
+    for (const auto& patch : patches) {
         if (!ofLevel || ofLevel->level != patch.level) ofLevel = &patch;
         for (int axis = 0; axis < 3; ++axis) {
-            flat_[axis] = flat_[axis] && patch.flat[axis];
             const double ratio = patch.cellSize[axis] / ofLevel->cellSize[axis];
             if (std::abs(ratio - 1.0) > kRounding && !patch.flat[axis])
                 throw InvalidInput(name, "patches of its level " + std::to_string(patch.level) +
                                              " have cells of different sizes");
         }
+    }
+}
+
+double Resampling::mostSamples(const std::vector<CellPatch>& patches) {
+    double inPatches = 0.0;
+    for (const auto& patch : patches)
+        inPatches += static_cast<double>(sampleCount(patch.dims));
+    return std::min(kMostCells, std::max(kCellsForAll, kMostPerCell * inPatches));
+}
+
+void Resampling::failTooMany(const std::string& name, const char* samples) {
+    throw LimitExceeded(name,
+                        std::string("a uniform grid over its patches would have too many ") + samples +
+                            ", also with those of its coarsest level",
+                        "write the part that matters as an image");
+}
+
+std::string Resampling::describePatches(const std::vector<CellPatch>& patches, const glm::ivec3& dims,
+                                        const char* samples) {
+    const int levels = patches.back().level - patches.front().level + 1;
+    return "its " + std::to_string(patches.size()) + " patches in " + std::to_string(levels) +
+           " levels became a uniform grid of " + std::to_string(dims.x) + " x " + std::to_string(dims.y) +
+           " x " + std::to_string(dims.z) + " " + samples;
+}
+
+std::vector<std::byte> Resampling::blank(ScalarType source) const {
+    const auto type = resultType(source);
+    const auto cells = static_cast<std::size_t>(sampleCount(grid().dims));
+    std::vector<std::byte> bytes(cells * scalarBytes(type));
+    visitScalar(type, [&]<typename T>() {
+        if constexpr (std::is_floating_point_v<T>)
+            std::fill_n(reinterpret_cast<T*>(bytes.data()), cells, std::numeric_limits<T>::quiet_NaN());
+    });
+    return bytes;
+}
+
+PatchResampling::PatchResampling(const std::string& name, std::vector<CellPatch> patches)
+    : patches_(std::move(patches)) {
+    low_ = glm::dvec3(std::numeric_limits<double>::infinity());
+    high_ = -low_;
+    checkLevels(name, patches_);
+    for (const auto& patch : patches_) {
+        low_ = glm::min(low_, patch.low);
+        high_ = glm::max(high_, patch.low + patch.cellSize * glm::dvec3(patch.dims));
+        for (int axis = 0; axis < 3; ++axis)
+            flat_[axis] = flat_[axis] && patch.flat[axis];
     }
     placeGrid(name);
     for (const auto& patch : patches_)
@@ -47,18 +97,10 @@ bool PatchResampling::isFiner(const CellPatch& patch, int axis) const {
 }
 
 void PatchResampling::placeGrid(const std::string& name) {
-    double inPatches = 0.0;
-    for (const auto& patch : patches_)
-        inPatches += static_cast<double>(sampleCount(patch.dims));
-    const double most = std::min(kMostCells, std::max(kCellsForAll, kMostPerCell * inPatches));
+    const double most = mostSamples(patches_);
     const auto length = high_ - low_;
     for (auto patch = patches_.rbegin();; ++patch) { // from the finest level on
-        if (patch == patches_.rend())
-            throw LimitExceeded(
-                name,
-                "a uniform grid over its patches would have too many cells, also with those of "
-                "its coarsest level",
-                "write the part that matters as an image");
+        if (patch == patches_.rend()) failTooMany(name, "cells");
         glm::dvec3 counts(1.0);
         for (int axis = 0; axis < 3; ++axis)
             if (!flat_[axis]) counts[axis] = std::max(1.0, std::round(length[axis] / patch->cellSize[axis]));
@@ -77,24 +119,22 @@ void PatchResampling::placeGrid(const std::string& name) {
     validateGrid(grid_);
 }
 
-/// The patches of the coarsest level fill the box. Patches of one level do not overlap.
+/// The patches of the coarsest level fill the box. Not sure, and so no, if two of them overlap.
 bool PatchResampling::coversAll() const {
     double volume = 0.0;
-    for (const auto& patch : patches_)
-        if (patch.level == patches_.front().level) {
-            const auto size = patch.cellSize * glm::dvec3(patch.dims);
-            volume += size.x * size.y * size.z;
-        }
+    for (auto patch = patches_.begin(); patch != patches_.end() && patch->level == patches_.front().level;
+         ++patch) {
+        const auto size = patch->cellSize * glm::dvec3(patch->dims);
+        volume += size.x * size.y * size.z;
+        if (std::any_of(patches_.begin(), patch, [&](auto& other) { return overlap(other, *patch); }))
+            return false;
+    }
     const auto box = high_ - low_;
     return volume > (1.0 - kRounding) * box.x * box.y * box.z;
 }
 
 std::string PatchResampling::note() const {
-    const auto& dims = grid_.dims;
-    const int levels = patches_.back().level - patches_.front().level + 1;
-    std::string text = "Resampled: its " + std::to_string(patches_.size()) + " patches in " +
-                       std::to_string(levels) + " levels became a uniform grid of " + std::to_string(dims.x) +
-                       " x " + std::to_string(dims.y) + " x " + std::to_string(dims.z) + " cells";
+    std::string text = "Resampled: " + describePatches(patches_, grid_.dims, "cells");
     text += averages_
                 ? ", as large as those of level " + std::to_string(level_) + "; smaller ones were averaged."
                 : ", each with the value of the finest patch there.";
@@ -105,17 +145,6 @@ std::string PatchResampling::note() const {
 ScalarType PatchResampling::resultType(ScalarType source) const {
     if (isFloat(source) || (!averages_ && !gaps_)) return source;
     return scalarBytes(source) <= 2 ? ScalarType::F32 : ScalarType::F64;
-}
-
-std::vector<std::byte> PatchResampling::blank(ScalarType source) const {
-    const auto type = resultType(source);
-    const auto cells = static_cast<std::size_t>(sampleCount(grid_.dims));
-    std::vector<std::byte> bytes(cells * scalarBytes(type));
-    visitScalar(type, [&]<typename T>() {
-        if constexpr (std::is_floating_point_v<T>)
-            std::fill_n(reinterpret_cast<T*>(bytes.data()), cells, std::numeric_limits<T>::quiet_NaN());
-    });
-    return bytes;
 }
 
 std::array<std::vector<PatchResampling::Pair>, 3> PatchResampling::pairsOf(const CellPatch& patch) const {
@@ -208,21 +237,10 @@ void PatchResampling::paintAs(const CellPatch& patch, std::span<const In> in, st
 void PatchResampling::paint(std::size_t patch, std::span<const std::byte> values, ScalarType type,
                             std::vector<std::byte>& cells) const {
     const auto& from = patches_.at(patch);
-    const auto result = resultType(type);
-    visitScalar(type, [&]<typename In>() {
-        const std::span<const In> in(reinterpret_cast<const In*>(values.data()), values.size() / sizeof(In));
-        if (in.size() != static_cast<std::size_t>(sampleCount(from.dims)))
-            throw InternalError("AMR patch", "an array is not as large as its header said");
-        const auto paintInto = [&]<typename Out>(Out) {
-            paintAs<In, Out>(from, in, {reinterpret_cast<Out*>(cells.data()), cells.size() / sizeof(Out)});
-        };
-        if (result == type)
-            paintInto(In{});
-        else if (result == ScalarType::F32)
-            paintInto(float{});
-        else
-            paintInto(double{});
-    });
+    paintTyped(from, values, type, cells,
+               [&]<typename In, typename Out>(std::span<const In> in, std::span<Out> out) {
+                   paintAs(from, in, out);
+               });
 }
 
 } // namespace voxsheet::import

@@ -186,12 +186,20 @@ const VtiPlan& planOf(const SourceHeader& header) { return *static_cast<const Vt
 bool chooseCells(const InputFile& file, const VtiHeader& vti, VtiData wanted) {
     if (vti.arrays.empty())
         throw InvalidInput(file.name(), "it has no array of numbers for its points or cells");
-    const auto ofCells = [](const VtiArray& array) { return array.ofCells; };
-    if (wanted == VtiData::PointsFirst) return std::all_of(vti.arrays.begin(), vti.arrays.end(), ofCells);
-    if (std::none_of(vti.arrays.begin(), vti.arrays.end(), ofCells))
-        throw Unsupported(file.name(), "its values are those of points; a patch needs values of cells",
-                          "convert them, for example by VTK's vtkPointDataToCellData");
-    return true;
+    const auto has = [&](bool ofCells) {
+        return std::any_of(vti.arrays.begin(), vti.arrays.end(), [&](const VtiArray& array) {
+            return array.ofCells == ofCells && array.name != kVtkGhosts;
+        });
+    };
+    const bool ofCells = wanted == VtiData::Cells || (wanted == VtiData::CellsFirst && has(true)) ||
+                         (wanted != VtiData::Points && !has(false));
+    const bool chosen = wanted == VtiData::Cells || wanted == VtiData::Points;
+    if (chosen && !has(ofCells))
+        throw Unsupported(file.name(),
+                          ofCells ? "its values are those of points, and those of the first patch of cells"
+                                  : "its values are those of cells, and those of the first patch of points",
+                          "write all patches with the same arrays");
+    return ofCells;
 }
 
 void placeRectilinear(const InputFile& file, const VtiHeader& vti, const ImportLimits& limits,
@@ -307,15 +315,8 @@ SourceHeader readVtiHeader(const std::filesystem::path& path, const ImportLimits
         plan->arrays.back().array.inlineHead.clear();
         appendFields(source.meta.fields, array.name, array.type, array.components, array.isVector);
     }
-    if (plan->resampling)
-        for (auto& field : source.meta.fields)
-            field.storedType = plan->resampling->resultType(field.storedType);
-    checkFieldsAndSteps(file.name(), static_cast<std::int64_t>(source.meta.fields.size()), 1);
     source.meta.sourceType = plan->arrays.front().array.type;
-    if (source.totalBytes() > limits.maxBytes)
-        throw LimitExceeded(file.name(), "its arrays need " + std::to_string(source.totalBytes()) +
-                                             " bytes, more than the limit of " +
-                                             std::to_string(limits.maxBytes));
+    finishFields(file.name(), plan->resampling, limits, source);
     source.plan = plan;
     return source;
 }

@@ -12,10 +12,12 @@ namespace voxsheet::import {
 /// are resampled to uniform ones (formats/rectilinear_axes.h). Other VTK XML files are Unsupported.
 [[nodiscard]] std::unique_ptr<SourceReader> makeVtiReader();
 
-/// For data sets that are made of several such files.
-enum class VtiData { PointsFirst, Cells };
+inline constexpr const char* kVtkGhosts = "vtkGhostType"; ///< marks what finer patches cover: not for people
 
-/// As the reader's. Throws Unsupported, too, if cells are wanted and there are arrays of points alone.
+/// For data sets that are made of several such files. The first two: whichever there are.
+enum class VtiData { PointsFirst, CellsFirst, Points, Cells };
+
+/// As the reader's. Throws Unsupported, too, if there are no arrays of what is wanted.
 [[nodiscard]] SourceHeader readVtiHeader(const std::filesystem::path& path, const ImportLimits& limits,
                                          VtiData wanted);
 /// Points along the axes of what readVtiHeader described.

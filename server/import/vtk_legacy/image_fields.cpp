@@ -1,5 +1,8 @@
 #include "import/vtk_legacy/image_fields.h"
 
+#include "base/errors.h"
+#include "import/formats/field_names.h"
+
 #include <algorithm>
 #include <array>
 
@@ -34,6 +37,21 @@ void appendFields(std::vector<FieldMeta>& fields, const std::string& array, Scal
         field.storedType = type;
         fields.push_back(std::move(field));
     }
+}
+
+void finishFields(const std::string& name, const std::optional<UniformResampling>& resampling,
+                  const ImportLimits& limits, SourceHeader& source) {
+    if (resampling)
+        for (auto& field : source.meta.fields)
+            field.storedType = resampling->resultType(field.storedType);
+    checkTotalBytes(name, limits, source);
+}
+
+void checkTotalBytes(const std::string& name, const ImportLimits& limits, const SourceHeader& source) {
+    checkFieldsAndSteps(name, static_cast<std::int64_t>(source.meta.fields.size()), 1);
+    if (source.totalBytes() > limits.maxBytes)
+        throw LimitExceeded(name, "its arrays need " + std::to_string(source.totalBytes()) +
+                                      " bytes, more than the limit of " + std::to_string(limits.maxBytes));
 }
 
 Grid cellGrid(const Grid& points) {

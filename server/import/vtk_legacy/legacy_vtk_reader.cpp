@@ -112,15 +112,8 @@ public:
                                     voxelPlan(source.files[0], legacy, array, tuples)});
             appendFields(source.meta.fields, array.name, array.type, array.components, !array.colours);
         }
-        if (plan->resampling)
-            for (auto& field : source.meta.fields)
-                field.storedType = plan->resampling->resultType(field.storedType);
-        checkFieldsAndSteps(file.name(), static_cast<std::int64_t>(source.meta.fields.size()), 1);
         source.meta.sourceType = plan->arrays.front().voxels.type;
-        if (source.totalBytes() > limits.maxBytes)
-            throw LimitExceeded(file.name(), "its arrays need " + std::to_string(source.totalBytes()) +
-                                                 " bytes, more than the limit of " +
-                                                 std::to_string(limits.maxBytes));
+        finishFields(file.name(), plan->resampling, limits, source);
         source.plan = plan;
         return source;
     }

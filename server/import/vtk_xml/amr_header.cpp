@@ -41,10 +41,13 @@ private:
     }
 
     void start(const std::string& element, const XmlWalk::Attributes& attributes) {
-        if (element == "Block") level_ = levelOf(attributes, "level");
+        if (element == "VTKFile") multiBlock_ = isMultiBlockType(valueOf(attributes, "type"));
+        if (element == "Block" && !multiBlock_) level_ = levelOf(attributes, "level");
         if (element != "DataSet") return;
         // The older kind says the level with each patch.
-        const auto level = attributes.contains("group") ? levelOf(attributes, "group") : level_;
+        const auto level = multiBlock_                    ? 0
+                           : attributes.contains("group") ? levelOf(attributes, "group")
+                                                          : level_;
         auto file = valueOf(attributes, "file");
         if (file.empty()) return; // an empty place
         if (level < 0) damaged("a patch has no level");
@@ -64,12 +67,15 @@ private:
     const InputFile& file_;
     XmlWalk walk_;
     int level_ = -1;
+    bool multiBlock_ = false;
     std::vector<AmrPatch> patches_;
 };
 
 } // namespace
 
 std::vector<AmrPatch> parseAmrHeader(const InputFile& file) { return AmrParser(file).parse(); }
+
+bool isMultiBlockType(std::string_view type) { return type == "vtkMultiBlockDataSet"; }
 
 bool isAmrType(std::string_view type) {
     constexpr std::array<std::string_view, 4> types{"vtkOverlappingAMR", "vtkNonOverlappingAMR",
