@@ -8,9 +8,16 @@ namespace voxsheet {
 namespace {
 
 constexpr double kSureDifference = 5.0;
+constexpr double kCertainDifference = 10.0;
 constexpr double kSureWithoutOne = 3.0;
 constexpr int kFramesOfALonePoint = 12;
 constexpr std::size_t kNewestSteps = 4;
+
+/// For certain, or, where there is a bend beyond doubt, more likely than not.
+bool isAbove(const SlopeRatio& ratio, double limit) {
+    if (!ratio.comparable) return false;
+    return ratio.low > limit || (ratio.value > limit && ratio.significance > kCertainDifference);
+}
 
 struct Candidate {
     std::size_t bend = 0; ///< index of the last point before the bend
@@ -62,8 +69,7 @@ std::optional<SlopeBend> creptUp(std::span<const TimePoint> first, std::span<con
                                  double ratioLimit) {
     if (first.size() < 2 || last.size() < kNewestSteps) return std::nullopt;
     const auto ratio = slopeRatio(fitStraightLine(first), fitStraightLine(last));
-    if (!ratio.comparable || ratio.low <= ratioLimit || ratio.significance <= kSureDifference)
-        return std::nullopt;
+    if (!isAbove(ratio, ratioLimit) || ratio.significance <= kSureDifference) return std::nullopt;
     return SlopeBend{last.front().n, last.back().n, ratio, true};
 }
 
@@ -73,7 +79,7 @@ std::optional<SlopeBend> newestBend(std::span<const TimePoint> segment, double r
     if (segment.size() < 3) return std::nullopt;
     const auto surest = surestBend(segment);
     if (!surest) return std::nullopt;
-    const bool breaks = surest->ratio.comparable && surest->ratio.low > ratioLimit;
+    const bool breaks = isAbove(surest->ratio, ratioLimit);
     const bool keeps = !surest->ratio.comparable || surest->ratio.high < ratioLimit;
     if (!breaks && !keeps) return std::nullopt;
     if (!holdsWithoutAnyOne(segment, *surest, breaks ? std::optional(ratioLimit) : std::nullopt))
@@ -110,7 +116,7 @@ std::optional<SlopeBend> SlopeWatch::judge(std::span<const TimePoint> curve, dou
     if (bend && bend->breaksRule && firstBendN_ > 0) {
         const auto overall = slopeRatio(fitStraightLine(upTo(curve, bend->lastN)),
                                         fitStraightLine(segmentFrom(curve, bend->lastN)));
-        bend->breaksRule = overall.low > ratioLimit;
+        bend->breaksRule = isAbove(overall, ratioLimit);
         if (!bend->breaksRule && overall.high >= ratioLimit) return std::nullopt;
     }
     if (!bend || bend->breaksRule) return bend;

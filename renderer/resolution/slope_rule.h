@@ -9,10 +9,13 @@
 //  - that is not because of a single point: with any one point beyond the bend left out, the difference stays
 //    above three standard errors. One point alone will do when it is the median of at least 12 frames.
 // It breaks the rule when the lower 95 % confidence bound of the ratio of slopes is above the limit (and the
-// ratio itself, with any one point left out); it is known to keep the rule when the upper bound is below the
-// limit, and it is taken to when the curve fell before. In between, more points are awaited. A curve that
-// broke the rule did so from the first bend before that whose difference is as sure and whose ratio is above
-// the limit, sure or not: where a texture budget fills, the curve often rises in two steps.
+// ratio itself, with any one point left out). Where the slopes differ by ten standard errors, the ratio
+// itself decides: that the curve bends is beyond doubt then, and waiting for its ratio to be certainly above
+// a limit close by would take longer than most curves last. A bend is known to keep the rule when the upper
+// bound is below the limit, and it is taken to when the curve fell before. In between, more points are
+// awaited. A curve that broke the rule did so from the first bend before that whose difference is as sure and
+// whose ratio is above the limit, sure or not: where a texture budget fills, the curve often rises in two
+// steps.
 #pragma once
 
 #include "resolution/slope_fit.h"

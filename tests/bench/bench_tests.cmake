@@ -50,6 +50,14 @@ if(TARGET voxsheet AND TARGET bench_time_n)
         --figures ${CMAKE_BINARY_DIR}/tests/bench/figures)
     set_tests_properties(bench.time_n_figures PROPERTIES LABELS bench TIMEOUT 300 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\".*\"n_max\".*\"n_max_without\"")
+    add_test(NAME bench.time_n_figures_by_slope COMMAND voxsheet bench time-n ${small_time_n} --texture-budget 3M
+        --figures ${CMAKE_BINARY_DIR}/tests/bench/figures_by_slope --dr slope)
+    set_tests_properties(bench.time_n_figures_by_slope PROPERTIES LABELS bench TIMEOUT 300 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"runs\":.*\"dr\": \"slope\"" FAIL_REGULAR_EXPRESSION "\"dr\": \"off\"")
+    add_test(NAME bench.time_n_figures_by_time COMMAND voxsheet bench time-n ${small_time_n}
+        --figures ${CMAKE_BINARY_DIR}/tests/bench/figures_by_time --dr time)
+    set_tests_properties(bench.time_n_figures_by_time PROPERTIES LABELS bench TIMEOUT 60 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "error: --dr: none of the figures 6 to 8 is drawn by time; " FAIL_REGULAR_EXPRESSION "wrote")
 endif()
 if(TARGET voxsheet)
     add_test(NAME bench.http COMMAND voxsheet bench http --clients 1,3 --seconds 0.1 --dim 16 --width 32 --height 32 --json)

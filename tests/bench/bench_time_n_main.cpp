@@ -84,7 +84,8 @@ int run(const Arguments& arguments) {
     const auto progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     const auto results = arguments.figuresFolder.empty()
                              ? runTimeN(arguments.runs, arguments.files, progress)
-                             : runPaperFigures(arguments.runs.front(), arguments.figuresFolder, progress);
+                             : runPaperFigures(arguments.runs.front(), criteriaOf(arguments.texts),
+                                               arguments.figuresFolder, progress);
     std::printf("%s\n", jsonOf(results).c_str());
     int exitCode = 0;
     for (const auto& result : results)

@@ -62,7 +62,8 @@ int report(const std::vector<bench::TimeNResult>& results) {
 int run(const TimeNArguments& arguments, const bench::Progress& progress) {
     const auto runs = bench::withTexts(arguments.options, arguments.texts);
     const bool figures = !arguments.figuresFolder.empty();
-    const auto results = figures ? bench::runPaperFigures(runs.front(), arguments.figuresFolder, progress)
+    const auto results = figures ? bench::runPaperFigures(runs.front(), bench::criteriaOf(arguments.texts),
+                                                          arguments.figuresFolder, progress)
                                  : bench::runTimeN(runs, arguments.files, progress);
     if (arguments.json) {
         std::printf("%s\n", nlohmann::json::parse(bench::jsonOf(results)).dump(2).c_str());
@@ -72,8 +73,7 @@ int run(const TimeNArguments& arguments, const bench::Progress& progress) {
         for (const auto& result : results)
             printTable(result);
     if (results.size() > 1) std::printf("%s", bench::summaryTable(results).c_str());
-    if (figures)
-        std::printf("figures 6, 7, 8a and 8b, and all else, are in %s\n", arguments.figuresFolder.c_str());
+    if (figures) std::printf("the figures, and all else, are in %s\n", arguments.figuresFolder.c_str());
     return report(results);
 }
 
@@ -85,7 +85,7 @@ Action addTimeN(CLI::App& app) {
     app.footer(
         "Example: voxsheet bench time-n --technique vr --dr slope --json --csv vr.csv --svg vr.svg\n"
         "         voxsheet bench time-n --technique ie --dr off,slope --svg ie.svg    (both in one figure)\n"
-        "         voxsheet bench time-n --figures figures      (all of the paper's figures 6 to 8; hours)");
+        "         voxsheet bench time-n --figures figures --step 4      (the paper's figures 6 to 8)");
     app.add_option(
            "--technique", a->options.scene.technique,
            "vr (volume rendering), sr (surface rendering of box and cut), vc (voxelized clipping), ie "
@@ -103,7 +103,7 @@ Action addTimeN(CLI::App& app) {
         "--dr", a->texts.dr,
         "Dynamic resolution: off; slope (R > 1.5), slope-first (R > 1.2, catches the paper's first "
         "transition too), time, rate, count, bytes; several with commas (off,slope) are a run each over "
-        "the same datasets, in one figure, with the largest N of each (off)");
+        "the same datasets, in one figure, with the largest N of each (off; with --figures off,slope)");
     app.add_option(
         "--dr-limit", a->texts.drLimit,
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
@@ -119,7 +119,8 @@ Action addTimeN(CLI::App& app) {
     app.add_option(
         "--figures", a->figuresFolder,
         "All techniques, with and without shading, without dynamic resolution and with the slope rule: "
-        "writes figures 6, 7, 8a, 8b, every run's figure, points and JSON, and a summary into this folder");
+        "writes figures 6, 7, 8a, 8b, every run's figure, points and JSON, and a summary into this folder; "
+        "with --dr slope 8a and 8b only, with --dr off 6 and 7");
     app.add_flag("--json", a->json, "One JSON object on stdout instead of a table");
     return [a] {
         const auto progress = [](const std::string& text) {

@@ -69,6 +69,14 @@ glm::ivec2 parseTileSize(const std::string& text) {
     return {width, height};
 }
 
+std::vector<ResolutionCriterion> criteriaOf(const TimeNTexts& texts) {
+    std::vector<ResolutionCriterion> criteria;
+    if (texts.dr.empty()) return criteria;
+    for (const auto& name : commaList(texts.dr))
+        criteria.push_back(criterionOf(name));
+    return criteria;
+}
+
 std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNTexts& texts) {
     TimeNOptions common = options;
     common.scene.tilePixels = parseTileSize(texts.tile);
@@ -76,9 +84,11 @@ std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNText
     common.memoryBudgetBytes = parseBytes(texts.memoryBudget, "--memory-budget");
     std::vector<TimeNOptions> runs;
     bool limitUsed = false;
-    for (const auto& name : commaList(texts.dr)) {
+    auto criteria = criteriaOf(texts);
+    if (criteria.empty()) criteria = {ResolutionCriterion::Off};
+    for (const auto criterion : criteria) {
         runs.push_back(common);
-        runs.back().rule.criterion = criterionOf(name);
+        runs.back().rule.criterion = criterion;
         if (texts.drLimit) limitUsed = setLimit(runs.back().rule, *texts.drLimit) || limitUsed;
     }
     if (texts.drLimit && !limitUsed)

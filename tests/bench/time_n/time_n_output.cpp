@@ -8,6 +8,7 @@
 #include "bench/time_n/time_n_comparison.h"
 #include "bench/time_n/time_n_figure.h"
 
+#include <algorithm>
 #include <fstream>
 
 namespace voxsheet::bench {
@@ -102,6 +103,22 @@ std::vector<TimeNOptions> runsOf(const PaperFigure& figure, TimeNOptions options
     return runs;
 }
 
+/// Of the paper's figures those that are drawn by one of `criteria`.
+std::vector<PaperFigure> figuresBy(std::span<const ResolutionCriterion> criteria) {
+    std::vector<PaperFigure> chosen;
+    for (const auto& figure : kPaperFigures)
+        if (criteria.empty() || std::count(criteria.begin(), criteria.end(), figure.criterion) > 0)
+            chosen.push_back(figure);
+    for (const auto criterion : criteria)
+        if (criterion != ResolutionCriterion::Off && criterion != ResolutionCriterion::Slope)
+            throw InvalidInput("--dr",
+                               std::string("none of the figures 6 to 8 is drawn by ") +
+                                   resolutionCriterionName(criterion),
+                               "with --figures, give off, slope or both")
+                .withField("--dr");
+    return chosen;
+}
+
 void writeRun(const fs::path& folder, const std::string& name, const TimeNResult& result) {
     write(folder / (name + ".csv"), csvOf({&result, 1}));
     write(folder / (name + ".svg"), timeNFigure(result));
@@ -119,18 +136,20 @@ void writeSummary(const fs::path& folder, std::span<const TimeNResult> results) 
 
 } // namespace
 
-std::vector<TimeNResult> runPaperFigures(const TimeNOptions& options, const fs::path& folder,
-                                         const Progress& progress) {
+std::vector<TimeNResult> runPaperFigures(const TimeNOptions& options,
+                                         std::span<const ResolutionCriterion> criteria,
+                                         const fs::path& folder, const Progress& progress) {
+    const auto figures = figuresBy(criteria);
     const StopSignals signals;
     fs::create_directories(folder);
     std::vector<TimeNOptions> runs;
-    for (const auto& figure : kPaperFigures)
+    for (const auto& figure : figures)
         for (const auto& run : runsOf(figure, options))
             runs.push_back(run);
     const auto datasets = datasetsFor(runs, progress);
     std::vector<TimeNResult> all;
     all.reserve(runs.size());
-    for (const auto& figure : kPaperFigures) {
+    for (const auto& figure : figures) {
         const auto first = all.size();
         for (const auto& run : runsOf(figure, options)) {
             const auto name = std::string(figure.name) + "-" + run.scene.technique;

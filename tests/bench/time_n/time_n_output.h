@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 
 namespace voxsheet::bench {
@@ -28,9 +29,12 @@ using Progress = std::function<void(const std::string&)>;
 /// with) and with the slope rule (8a, 8b). Writes into `folder`: figure-6.svg, … and, as the paper's insets,
 /// figure-6-low-n.svg, …; a CSV, SVG and JSON file per run; vr.svg, vr-shading.svg, … with both runs of a
 /// technique; times.csv with all points; summary.md. Of `options`, technique, shading and criterion are
-/// replaced. Returns the results in that order.
-[[nodiscard]] std::vector<TimeNResult>
-runPaperFigures(const TimeNOptions& options, const std::filesystem::path& folder, const Progress& progress);
+/// replaced. Returns the results in that order. Throws InvalidInput when one of `criteria` is neither Off nor
+/// Slope. \param criteria  which of them: Off draws 6 and 7, Slope 8a and 8b; none: all
+[[nodiscard]] std::vector<TimeNResult> runPaperFigures(const TimeNOptions& options,
+                                                       std::span<const ResolutionCriterion> criteria,
+                                                       const std::filesystem::path& folder,
+                                                       const Progress& progress);
 
 /// One result: as jsonOf(TimeNResult). Several: {"runs": [one such object each], "summary": as summaryJson}.
 [[nodiscard]] std::string jsonOf(const std::vector<TimeNResult>& results);

@@ -174,14 +174,22 @@ TEST(SlopeRule, WidelyScatteredFramesKeepIt) {
     EXPECT_TRUE(newestBend(points, kPaperRatioLimit)); // the same medians, quietly measured
 }
 
+/// Coarse steps of N up to 64, as `bench time-n --step 4` takes them.
+std::vector<TimePoint> coarsely(const InventedCurve& curve, Noise noise) {
+    std::vector<TimePoint> points;
+    for (const auto& point : pointsOf(curve, kLastN, noise))
+        if (point.n <= 4 || point.n % 4 == 0) points.push_back(point);
+    return points;
+}
+
 TEST(SlopeRule, RiseInTwoStepsBrokeItAtTheFirst) {
     // Coarse steps of N: the first bend, R = 1.67, is not surely above the limit yet when the second,
     // R = 4.5, is found. The surest bend alone is the first in 131 of these runs.
     int atFirst = 0;
     for (unsigned run = 0; run < 200; ++run) {
-        std::vector<TimePoint> points;
-        for (const auto& point : pointsOf({0.0, {12.0, 20.0, 90.0}, {12, 20}}, 28, Noise(0.02, run)))
-            if (point.n <= 4 || point.n % 4 == 0) points.push_back(point);
+        auto points = coarsely({0.0, {12.0, 20.0, 90.0}, {12, 20}}, Noise(0.02, run));
+        while (points.back().n > 28)
+            points.pop_back();
         for (std::size_t count = 3; count <= points.size(); ++count) {
             const auto bend = newestBend(std::span(points).first(count), kPaperRatioLimit);
             if (!bend || !bend->breaksRule) continue;
@@ -191,6 +199,22 @@ TEST(SlopeRule, RiseInTwoStepsBrokeItAtTheFirst) {
         }
     }
     EXPECT_GE(atFirst, 170);
+}
+
+TEST(SlopeRule, BendJustAboveTheLimitIsCaughtAmongNoisyPoints) {
+    // R = 1.55. The lower bound alone is above 1.5 before the curve ends in 67 of these runs.
+    int caught = 0;
+    for (unsigned run = 0; run < 100; ++run)
+        caught += firstDetected(coarsely({0.0, {20.0, 31.0}, {20}}, Noise(0.02, run))) > 20;
+    EXPECT_GE(caught, 90);
+}
+
+TEST(SlopeRule, BendBelowTheLimitKeepsIt) {
+    // R = 1.35. The best estimate alone would break the rule in 17 of these runs.
+    int wrong = 0;
+    for (unsigned run = 0; run < 300; ++run)
+        wrong += firstDetected(pointsOf({0.0, {10.0, 13.5}, {16}}, kLastN, Noise(0.01, run))) != 0;
+    EXPECT_LE(wrong, 6);
 }
 
 TEST(SlopeRule, SingleBendStaysWhereItIs) {
