@@ -1,4 +1,4 @@
-// Computes a formula's volume into the store, slab by slab, from level-0 source values.
+// Computes a formula's volume into the store, slab by slab on all threads, from level-0 source values.
 #pragma once
 
 #include "engine/entry_jobs.h"

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # server_figures.sh VOXSHEET: what the server costs beside its pictures, as one JSON object: start to `ready` with
 # a warm store, processor time while nothing happens, from an edit of each kind to a reduced picture of the sheet
-# (95th percentile of EDITS, two requests by curl included), and private memory after that with its bound (texture
-# budget + memory budget + 150 MB). Over nine cells of 128^3 that it writes itself, of more bytes than the budgets
-# hold; needs curl.
+# (95th percentile of EDITS, two requests by curl included; of a formula: to a reduced picture of its cell, once it is
+# computed), and private memory after that with its bound (texture budget + memory budget + 150 MB): pages that this
+# process alone has written. Pages of programs and libraries, which it shares with others that use them and which the
+# system may drop, are apart. Over nine cells of 128^3 that it writes itself, of more bytes than the budgets hold;
+# needs curl.
 set -euo pipefail
 program="$(readlink -f "$1")"
 idle_seconds="${IDLE_SECONDS:-10}"
@@ -63,10 +65,21 @@ edit() {
         return 1
     milliseconds "$(now) - began"
 }
-# p95 NAME BODY: the body's % stands for a number from 0.10 to 0.90.
+# The ninth cell becomes the formula $1.
+formula() {
+    local began; began="$(now)"
+    curl --fail-with-body -sS -X PATCH "${url}api/v1/sheets/Sheet1/cells/C3" -H 'Content-Type: application/json' \
+        -d "$1" >"$work/answer" || { cat "$work/answer" >&2; return 1; }
+    # Until it is computed, the answer is a 409.
+    until curl --fail-with-body -s -o "$work/answer" "${url}api/v1/sheets/Sheet1/cells/C3/image.jpg?width=256&height=256&quality=half"; do
+        [ "$(($(now) - began))" -lt 30000000000 ] || { echo "no picture of $1: $(cat "$work/answer")" >&2; return 1; }
+    done
+    milliseconds "$(now) - began"
+}
+# p95 NAME BODY [WHAT: edit]: the body's % stands for a number from 0.10 to 0.90.
 p95() {
     local i
-    for i in $(seq "$edits"); do edit "${2//%/0.$((10 + i * 80 / edits))}" || exit 1; done | sort -n |
+    for i in $(seq "$edits"); do "${3:-edit}" "${2//%/0.$((10 + i * 80 / edits))}" || exit 1; done | sort -n |
         awk -v name="$1" '{ ms[NR] = $1 } END { printf "\"%s\": %s", name, ms[int(0.95 * NR + 0.5)] }'
 }
 curl -fsS -o /dev/null -X PATCH "${url}api/v1/sheets/Sheet1/style" -H 'Content-Type: application/json' \
@@ -75,6 +88,8 @@ edit_ms="$(p95 camera '{"camera.azimuth": %}'), $(p95 opacity '{"transfer.opacit
 edit_ms+=", $(p95 range '{"range.mode": "percentile", "range.min": %}'), $(p95 light '{"shading.model": "phong", "shading.ambient": %}')"
 edit_ms+=", $(p95 planes '{"shading.model": "none", "clip.units": "fraction", "clip.planes": [[1, 0, 0, %]]}')"
 edit_ms+=", $(p95 isovalue '{"technique": "isosurface", "clip.planes": "none", "isovalue": [%]}')"
-private_kb="$(awk '/^Private_/ { sum += $2 } END { print sum }' "/proc/$server/smaps_rollup")"
-printf '{"ready_cold_ms": %s, "ready_warm_ms": %s, "idle_cpu_percent": %s, "edit_p95_ms": {%s}, "private_mb": %s, "private_bound_mb": %s}\n' \
-    "$cold_ms" "$warm_ms" "$idle_percent" "$edit_ms" "$((private_kb / 1024))" "$((2 * budget + 150))"
+edit_ms+=", $(p95 formula '{"source": "=B1-A1*%"}' formula)"
+private_kb="$(awk '/^Private_Dirty/ { print $2 }' "/proc/$server/smaps_rollup")"
+resident_kb="$(awk '/^Rss/ { print $2 }' "/proc/$server/smaps_rollup")"
+printf '{"ready_cold_ms": %s, "ready_warm_ms": %s, "idle_cpu_percent": %s, "edit_p95_ms": {%s}, "private_mb": %s, "private_bound_mb": %s, "program_pages_mb": %s}\n' \
+    "$cold_ms" "$warm_ms" "$idle_percent" "$edit_ms" "$((private_kb / 1024))" "$((2 * budget + 150))" "$(((resident_kb - private_kb) / 1024))"

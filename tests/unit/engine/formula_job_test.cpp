@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace voxsheet::engine {
 namespace {
@@ -59,6 +61,27 @@ TEST_F(FormulaJob, TheResultIsAVolumeLikeAnyOther) {
         }
     }
     EXPECT_NO_THROW(static_cast<void>(results.readMinMax({meta->key, 0, 0, 0})));
+}
+
+TEST_F(FormulaJob, SlabsOnAllThreadsMakeOneVolume) {
+    const glm::ivec3 dims{64, 65, 50}; // slabs of 15 slices, the last one of 5
+    test::addDataset(inputs, test::metaOf("x", dims), [](int i, int, int) { return static_cast<float>(i); });
+    test::addDataset(inputs, test::metaOf("y", dims),
+                     [](int, int j, int k) { return static_cast<float>(100 * j + 7000 * k); });
+    std::vector<double> told;
+    JobControl control;
+    control.progress = [&](double progress) { told.push_back(progress); };
+    const auto meta =
+        computeFormula({difference(), {{inputs.describe("y"), 0, 0}, {inputs.describe("x"), 0, 0}}, "=Y1-X1"},
+                       *store, inputs, 0, control);
+    EXPECT_EQ(told.size(), 4U);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    const auto values = readValues(results, *meta, {meta->key, 0, 0, 0}, 0, dims.z);
+    std::size_t next = 0;
+    for (int k = 0; k < dims.z; ++k)
+        for (int j = 0; j < dims.y; ++j)
+            for (int i = 0; i < dims.x; ++i)
+                ASSERT_EQ(values[next++], 100.0 * j + 7000.0 * k - i) << i << " " << j << " " << k;
 }
 
 TEST_F(FormulaJob, TheSameFormulaIsComputedOnce) {
