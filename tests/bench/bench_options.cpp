@@ -51,6 +51,7 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
                 "  --technique T  vr, sr, vc, ie or all: what looks inside, with and without light, at 128 "
                 "and 256 samples\n"
                 "  --sampling S   adaptive or even (adaptive)\n"
+                "  --scans FOLDER  (bench_vs_vtk) the real scans of the test data instead\n"
                 "  --only TEXT  cases with this in their names\n"
                 "  --json       one JSON object on stdout (always so)\n",
                 usage.c_str());
@@ -72,6 +73,8 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             options.techniques.emplace_back(arguments[++i]);
         else if (argument == "--sampling")
             options.adaptive = samplingAfter(count, arguments, i);
+        else if (argument == "--scans" && i + 1 < count)
+            options.scans = arguments[++i];
         else if (argument == "--only" && i + 1 < count)
             options.only = arguments[++i];
         else if (argument != "--json")

@@ -1,4 +1,5 @@
-// The command line of the bench programs: --samples N --pixels N --frames N --device N --type u8|u16|f32
+// The command line of the bench programs: --samples N --pixels N --scans FOLDER --frames N --device N --type
+// u8|u16|f32
 // --json --help.
 #pragma once
 

@@ -7,14 +7,20 @@ add_test(NAME bench.inside COMMAND bench_volume --technique all --samples 32 --p
 set_tests_properties(bench.inside PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
     PASS_REGULAR_EXPRESSION "ie lit.*\"ms\":.*\"samples\":.*\"psnr\":")
 
-if(TARGET voxsheet_vtk_peer)
-    add_executable(bench_vs_vtk bench/bench_vs_vtk_main.cpp bench/cells_vs_vtk.cpp bench/inside_vs_vtk.cpp bench/bench_options.cpp)
-    target_link_libraries(bench_vs_vtk PRIVATE voxsheet_volume_bench voxsheet_vtk_peer)
+if(TARGET voxsheet_vtk_peer AND TARGET voxsheet_import)
+    add_executable(bench_vs_vtk bench/bench_vs_vtk_main.cpp bench/cells_vs_vtk.cpp bench/inside_vs_vtk.cpp bench/bench_options.cpp
+        bench/scan_fields.cpp)
+    target_link_libraries(bench_vs_vtk PRIVATE voxsheet_volume_bench voxsheet_vtk_peer voxsheet_import)
     voxsheet_warnings(bench_vs_vtk)
     set_target_properties(bench_vs_vtk PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests/bench)
     add_test(NAME bench.vs_vtk COMMAND bench_vs_vtk --samples 32 --pixels 64 --frames 2 --json)
     set_tests_properties(bench.vs_vtk PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"cases\":\\[{\"name\":.*\"voxsheet_ms\":.*\"ratio_vtk_gpu\":")
+    add_test(NAME bench.vs_vtk_scans COMMAND bench_vs_vtk --scans ${CMAKE_SOURCE_DIR}/../shared/data --pixels 64 --frames 2
+        --only neghip --json)
+    set_tests_properties(bench.vs_vtk_scans PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"name\":\"neghip 64x64 sparse.*\"name\":\"neghip 64x64 filled"
+        SKIP_REGULAR_EXPRESSION "error: --scans .*it has none of the scans")
 endif()
 
 if(TARGET bench_time_n)

@@ -7,6 +7,7 @@
 #include "bench/cells_vs_vtk.h"
 #include "bench/inside_vs_vtk.h"
 #include "bench/json_text.h"
+#include "bench/scan_fields.h"
 #include "image/vtk_peer.h"
 #include "volume/memory_volume_provider.h"
 
@@ -104,18 +105,50 @@ bool isWanted(const VolumeBenchOptions& options, const std::string& name) {
     return name.find(options.only) != std::string::npos;
 }
 
+/// All that draws one volume.
+struct Drawers {
+    explicit Drawers(const VolumeScene& scene, int device)
+        : thread(providerOf(scene), optionsOf(device)), gpu(scene.sampled(), image::VtkMapper::Gpu),
+          cpu(scene.sampled(), image::VtkMapper::Cpu) {}
+
+    RenderThread thread;
+    image::VtkPeer gpu;
+    image::VtkPeer cpu;
+
+private:
+    static std::shared_ptr<MemoryVolumeProvider> providerOf(const VolumeScene& scene) {
+        auto provider = std::make_shared<MemoryVolumeProvider>();
+        provider->add(scene.sampled().meta, scene.sampled().arrays);
+        return provider;
+    }
+    static RenderOptions optionsOf(int device) {
+        RenderOptions options;
+        options.device = device;
+        return options;
+    }
+};
+
+std::vector<std::string> scansAgainstVtk(const VolumeBenchOptions& options) {
+    const auto missing = [](const std::string& file) { tellProgress("left out, it is not there: " + file); };
+    std::vector<std::string> cases;
+    for (const auto& scan : readScans(options.scans, missing))
+        for (const auto material : {Material::Sparse, Material::Filled}) {
+            VolumeScene scene(options, material, scan.name, scan.sampled, scan.low, scan.high);
+            if (!isWanted(options, scene.name())) continue;
+            Drawers drawers(scene, options.device);
+            cases.push_back(
+                runCase(drawers.thread, scene, Technique::Raycast, drawers.gpu, drawers.cpu, options.frames));
+        }
+    return cases;
+}
+
 std::vector<std::string> volumesAgainstVtk(const VolumeBenchOptions& options) {
     std::vector<std::string> cases;
     for (const auto material : {Material::Sparse, Material::Filled, Material::SharpPeaks}) {
         VolumeScene scene(options, material);
         if (!isWanted(options, scene.name())) continue;
-        auto provider = std::make_shared<MemoryVolumeProvider>();
-        provider->add(scene.sampled().meta, scene.sampled().arrays);
-        RenderOptions renderOptions;
-        renderOptions.device = options.device;
-        RenderThread thread(provider, renderOptions);
-        image::VtkPeer gpu(scene.sampled(), image::VtkMapper::Gpu);
-        image::VtkPeer cpu(scene.sampled(), image::VtkMapper::Cpu);
+        Drawers drawers(scene, options.device);
+        auto& [thread, gpu, cpu] = drawers;
         for (const auto technique : {Technique::Raycast, Technique::Slices})
             cases.push_back(runCase(thread, scene, technique, gpu, cpu, options.frames));
         if (material == Material::Filled)
@@ -136,17 +169,21 @@ RenderDevice deviceOf(const VolumeBenchOptions& options) {
     return RenderThread(std::make_shared<MemoryVolumeProvider>(), renderOptions).device();
 }
 
-/// With --technique only what looks inside; else that after the volumes and the sheet of cells.
+/// With --scans only those; with --technique only what looks inside; else that after the volumes and the
+/// sheet of cells.
 std::string compareWithVtk(VolumeBenchOptions options) {
     const auto device = deviceOf(options);
     std::vector<std::string> cases;
-    if (options.techniques.empty()) {
+    if (!options.scans.empty()) {
+        cases = scansAgainstVtk(options);
+    } else if (options.techniques.empty()) {
         cases = volumesAgainstVtk(options);
         if (isWanted(options, kSheetName)) cases.push_back(cellsAgainstVtk(options));
         options.techniques = {"all"};
     }
-    for (auto& one : insideAgainstVtk(options))
-        cases.push_back(std::move(one));
+    if (options.scans.empty())
+        for (auto& one : insideAgainstVtk(options))
+            cases.push_back(std::move(one));
     return jsonObject({{"device", jsonString(device.eglPlatform)},
                        {"renderer", jsonString(device.renderer)},
                        {"frames", jsonNumber(options.frames)},

@@ -21,16 +21,16 @@ int truthStride(const VolumeBenchOptions& options) { return std::max(1, options.
 
 fields::AnalyticField benchField() { return fields::gaussianSum(); }
 
-std::shared_ptr<const TransferTable> tableOf(Material material, const fields::AnalyticField& field) {
+std::shared_ptr<const TransferTable> tableOf(Material material, double low, double high) {
     switch (material) {
     case Material::Filled:
-        return fields::filledTable(field.low, field.high);
+        return fields::filledTable(low, high);
     case Material::SharpPeaks:
-        return fields::peaksTable(field.low, field.high);
+        return fields::peaksTable(low, high);
     case Material::Sparse:
         break;
     }
-    return fields::sparseTable(field.low, field.high);
+    return fields::sparseTable(low, high);
 }
 
 const char* nameOf(Material material) {
@@ -41,26 +41,30 @@ const char* nameOf(Material material) {
 } // namespace
 
 VolumeScene::VolumeScene(const VolumeBenchOptions& options, Material material)
-    : options_(options), material_(material),
-      sampled_(fields::sampleField(benchField(), fields::gridOf(fields::Geometry::Isotropic, options.samples),
-                                   options.type, kDataset)) {
-    const auto field = benchField();
-    table_ = tableOf(material, field);
-}
+    : VolumeScene(options, material, std::to_string(options.samples) + "^3 " + scalarName(options.type),
+                  fields::sampleField(benchField(),
+                                      fields::gridOf(fields::Geometry::Isotropic, options.samples),
+                                      options.type, kDataset),
+                  benchField().low, benchField().high) {}
+
+VolumeScene::VolumeScene(const VolumeBenchOptions& options, Material material, std::string volume,
+                         fields::SampledField sampled, double low, double high)
+    : options_(options), material_(material), volume_(std::move(volume)), sampled_(std::move(sampled)),
+      table_(tableOf(material, low, high)) {}
 
 std::string VolumeScene::name() const {
-    const auto n = std::to_string(options_.samples);
     const auto p = std::to_string(options_.pixels);
-    return n + "^3 " + scalarName(options_.type) + " " + p + "x" + p + nameOf(material_);
+    return volume_ + " " + p + "x" + p + nameOf(material_);
 }
 
 TileSpec VolumeScene::tile(Technique technique, int frame) const {
     const auto& grid = sampled_.meta.grid;
-    auto tile = fields::tileOf(kDataset, grid, technique, options_.pixels);
+    auto tile = fields::tileOf(sampled_.meta.key, grid, technique, options_.pixels);
     tile.transfer = table_;
     tile.adaptiveSampling = options_.adaptive;
     // The material keeps its looks at every size of the volume: opacities hold over 1/256 of its edge.
-    tile.unitLengthWorld = options_.samples / 256.0;
+    const auto edges = glm::dvec3(grid.dims) * spacingWorld(grid);
+    tile.unitLengthWorld = (edges.x + edges.y + edges.z) / 3.0 / 256.0;
     tile.camera = fields::cameraOf(grid, Projection::Perspective, 30.0 + kDegreesPerFrame * frame, 25.0);
     return tile;
 }
@@ -70,7 +74,7 @@ const fields::Picture& VolumeScene::truth(Technique technique) {
     if (picture.pixels.empty()) {
         MemoryVolumeProvider provider;
         provider.add(sampled_.meta, sampled_.arrays);
-        const fields::Interpolant interpolant(provider, {kDataset, 0, 0, 0});
+        const fields::Interpolant interpolant(provider, {sampled_.meta.key, 0, 0, 0});
         const auto view = tile(technique, 0);
         picture = fields::integrateConverged(
             view, sampled_.meta.grid, interpolant.dims(),

@@ -27,6 +27,7 @@ struct VolumeBenchOptions {
     bool adaptive = true;      ///< sampling, as the style key sampling.adaptive
     std::string only;          ///< of those, the cases whose name has this text in it
     int cellSamples = 128;     ///< per axis of each of 25 cells, at most `samples`
+    std::string scans;         ///< a folder of real scans, drawn instead of the analytic volumes; empty: none
     bool samplesGiven = false; ///< else that bench takes 128 and 256 samples
 };
 
@@ -46,6 +47,9 @@ enum class Material { Sparse, Filled, SharpPeaks };
 class VolumeScene {
 public:
     VolumeScene(const VolumeBenchOptions& options, Material material);
+    /// A given volume, with the material over the values from low to high.
+    VolumeScene(const VolumeBenchOptions& options, Material material, std::string volume,
+                fields::SampledField sampled, double low, double high);
 
     [[nodiscard]] const fields::SampledField& sampled() const { return sampled_; }
     [[nodiscard]] TileSpec tile(Technique technique, int frame) const;
@@ -57,6 +61,7 @@ public:
 private:
     VolumeBenchOptions options_;
     Material material_;
+    std::string volume_; ///< its name
     fields::SampledField sampled_;
     std::shared_ptr<const TransferTable> table_;
     fields::Picture integral_;
