@@ -1,26 +1,18 @@
 // A spreadsheet's habits: copy, cut, paste and Delete; window and level; a view that becomes part of the workbook; fingers.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { drag, look, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForState, waitForStyle, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { drag, look, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForState, waitForStyle, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { writeBalls } from "./volumes.mjs";
 
 const cells = ["A1", "B1", "C1"];
-let folder, server, browser, page;
+let server, browser, page;
 
-before(async () => {
-    folder = await makeFolder();
-    server = await startServer(folder, [...(await writeBalls(folder, 3, 32)), "--columns", "3"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url, { permissions: ["clipboard-read", "clipboard-write"] });
-    await settled(page, cells);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => [...(await writeBalls(folder, 3, 32)), "--columns", "3"],
+    (made) => ({ server, browser, page } = made),
+    { cells, context: { permissions: ["clipboard-read", "clipboard-write"] } },
+);
 
 const looks = () => Promise.all(cells.map((cell) => look(page, cell)));
 const sourceOf = (cell) =>

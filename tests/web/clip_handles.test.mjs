@@ -1,26 +1,14 @@
 // Clipping by the handles on the pictures: plane, box and clip object, each by pointer, by key and by number.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { dragFrom, look, metric, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { dragFrom, look, metric, middleOf, select, settled, styleOf, waitForOrigin, waitForStyle } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { writeBalls } from "./volumes.mjs";
 
 const cells = ["A1", "B1", "A2", "B2"];
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    server = await startServer(folder, [...(await writeBalls(folder, 4, 40, 0.06)), "--columns", "2"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(async (folder) => [...(await writeBalls(folder, 4, 40, 0.06)), "--columns", "2"], (made) => ({ page } = made), { cells });
 
 const looks = () => Promise.all(cells.map((cell) => look(page, cell)));
 const changed = (one, other) => cells.filter((_, i) => one[i].hash !== other[i].hash);

@@ -1,13 +1,13 @@
 // Crystals on the page: a perfect one, one with a vacancy and their difference under one symmetric range; atoms; hkl planes;
 // pictures of one cell with all that stands on it.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { writeFile } from "node:fs/promises";
-import { look, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { look, middleOf, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 
 const cells = ["A1", "B1", "C1"];
-let folder, server, browser, page;
+let page;
 
 /** A LOCPOT of 16^3 samples in a cube of 4 Å: a well at each atom. */
 function potential(sites) {
@@ -30,23 +30,15 @@ function potential(sites) {
 const cadmium = { element: "Cd", at: [0, 0, 0] };
 const tellurium = { element: "Te", at: [0.5, 0.5, 0.25] };
 
-before(async () => {
-    folder = await makeFolder();
-    await writeFile(`${folder}/LOCPOT_bulk`, potential([cadmium, tellurium]));
-    await writeFile(`${folder}/LOCPOT_vacancy`, potential([tellurium]));
-    server = await startServer(folder, [`${folder}/LOCPOT_bulk`, `${folder}/LOCPOT_vacancy`, "=B1-A1", "--columns", "3", "--set", "periodic.shift=.5,.5,.5"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-    await select(page, "A1");
-    await setScope(page, "sheet");
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => {
+        await writeFile(`${folder}/LOCPOT_bulk`, potential([cadmium, tellurium]));
+        await writeFile(`${folder}/LOCPOT_vacancy`, potential([tellurium]));
+        return [`${folder}/LOCPOT_bulk`, `${folder}/LOCPOT_vacancy`, "=B1-A1", "--columns", "3", "--set", "periodic.shift=.5,.5,.5"];
+    },
+    (made) => ({ page } = made),
+    { cells, scope: "sheet" },
+);
 
 const valueOf = async (cell, key) => (await styleOf(page, cell, key)).value;
 const bars = () => page.evaluate((names) => names.map((name) => window.voxsheet.store.get().book.bars[name]), cells);

@@ -1,23 +1,12 @@
 // Somebody starts the server with nothing: the page says what to do, and the demo is one press away.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { look, openBrowser, openPage, settled, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { look, settled, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 
-let folder, server, browser, page;
+let server, page;
 
-before(async () => {
-    folder = await makeFolder();
-    server = await startServer(folder, []);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(() => [], (made) => ({ server, page } = made));
 
 test("an empty sheet offers files from the server, an upload, and the demo", async () => {
     const empty = page.locator(".empty-state");

@@ -1,12 +1,10 @@
 // Edits: transfer function, overrides and resets, formulas, undo.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import {
     chooseMap,
     drag,
     look,
-    openBrowser,
-    openPage,
     originOf,
     select,
     setScope,
@@ -16,25 +14,13 @@ import {
     waitForState,
     waitUntil,
 } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { withPage } from "./session.mjs";
 import { writeBalls } from "./volumes.mjs";
 
 const cells = ["A1", "B1", "A2"];
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    server = await startServer(folder, [...(await writeBalls(folder, 3, 40)), "--columns", "2"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(async (folder) => [...(await writeBalls(folder, 3, 40)), "--columns", "2"], (made) => ({ page } = made), { cells });
 
 const looks = () => Promise.all(cells.map((cell) => look(page, cell)));
 

@@ -1,13 +1,13 @@
 // A label map: colours per label, legend, names in the probe, hiding; and as overlay over another volume's plane.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { writeFile } from "node:fs/promises";
-import { look, middleOf, openBrowser, openPage, select, setScope, settled, waitForOrigin, waitForStyle } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { look, middleOf, select, setScope, settled, waitForOrigin, waitForStyle } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { ball } from "./volumes.mjs";
 
 const size = 24;
-let folder, server, browser, page;
+let page;
 
 /** Four slabs along x with the labels 0 to 3, 8 bits. */
 function slabs() {
@@ -15,21 +15,15 @@ function slabs() {
     return Buffer.concat([Buffer.from(header, "latin1"), Buffer.alloc(size ** 3, 0).map((_, at) => Math.floor(((at % size) * 4) / size))]);
 }
 
-before(async () => {
-    folder = await makeFolder();
-    await writeFile(`${folder}/a_labels.nrrd`, slabs());
-    await writeFile(`${folder}/b_scan.nrrd`, ball(size, [0.5, 0.5, 0.5]));
-    server = await startServer(folder, [`${folder}/a_labels.nrrd`, `${folder}/b_scan.nrrd`, "--columns", "2", "--set", "technique=plane"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, ["A1", "B1"]);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => {
+        await writeFile(`${folder}/a_labels.nrrd`, slabs());
+        await writeFile(`${folder}/b_scan.nrrd`, ball(size, [0.5, 0.5, 0.5]));
+        return [`${folder}/a_labels.nrrd`, `${folder}/b_scan.nrrd`, "--columns", "2", "--set", "technique=plane"];
+    },
+    (made) => ({ page } = made),
+    { cells: ["A1", "B1"] },
+);
 
 const picture = (cell) => page.locator(`[data-picture-of="${cell}"]`);
 

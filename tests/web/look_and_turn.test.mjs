@@ -1,25 +1,14 @@
 // The page shows the sheet, and turning it changes the pictures.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { drag, look, openBrowser, openPage, settled, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { drag, look, settled, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { writeBalls } from "./volumes.mjs";
 
 const cells = ["A1", "B1", "A2", "B2"];
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    server = await startServer(folder, await writeBalls(folder, 4, 48));
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(async (folder) => await writeBalls(folder, 4, 48), (made) => ({ page } = made));
 
 test("every cell shows a picture of its own, at full level and in device pixels", async () => {
     await settled(page, cells);

@@ -1,29 +1,23 @@
 // Looking into volumes: presets, isovalues on the histogram, both signs, light. Every control by pointer, by key, by number.
 import assert from "node:assert/strict";
 import { writeFile } from "node:fs/promises";
-import { after, before, test } from "node:test";
-import { dragFrom, look, middleOf, openBrowser, openPage, originOf, select, setScope, settled, styleOf, waitForOrigin, waitForStyle } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { dragFrom, look, middleOf, originOf, select, setScope, settled, styleOf, waitForOrigin, waitForStyle } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { twoSigns, writeBalls } from "./volumes.mjs";
 
 const cells = ["A1", "B1", "C1"];
 const signed = "C1";
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    await writeFile(`${folder}/signed.nrrd`, twoSigns(40));
-    server = await startServer(folder, [...(await writeBalls(folder, 2, 40)), `${folder}/signed.nrrd`, "--columns", "3"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => {
+        await writeFile(`${folder}/signed.nrrd`, twoSigns(40));
+        return [...(await writeBalls(folder, 2, 40)), `${folder}/signed.nrrd`, "--columns", "3"];
+    },
+    (made) => ({ page } = made),
+    { cells },
+);
 
 const looks = () => Promise.all(cells.map((cell) => look(page, cell)));
 const changed = (one, other) => cells.filter((_, i) => one[i].hash !== other[i].hash);

@@ -1,31 +1,25 @@
 // Planes: stepping by wheel and keys, linked over cells; moving and zooming them by keys; three of them beside a volume, with
 // one crosshair.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { look, middleOf, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { look, middleOf, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { ball, writeBalls } from "./volumes.mjs";
 import { writeFile } from "node:fs/promises";
 
 const cells = ["A1", "B1"];
 const size = 33;
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    const small = `${folder}/small.nrrd`;
-    await writeFile(small, ball(17, [0.5, 0.5, 0.5]));
-    server = await startServer(folder, [...(await writeBalls(folder, 2, size)), small, "--columns", "3", "--set", "technique=plane"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => {
+        const small = `${folder}/small.nrrd`;
+        await writeFile(small, ball(17, [0.5, 0.5, 0.5]));
+        return [...(await writeBalls(folder, 2, size)), small, "--columns", "3", "--set", "technique=plane"];
+    },
+    (made) => ({ page } = made),
+    { cells },
+);
 
 const picture = (cell) => page.locator(`[data-picture-of="${cell}"]`);
 const looks = () => Promise.all(cells.map((cell) => look(page, cell)));

@@ -1,31 +1,23 @@
 // Rescaling: by buttons, in numbers, by dragging; and what the colour bars say about it.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { drag, look, openBrowser, openPage, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
-import { makeFolder, removeFolder, startServer, stopServer } from "./server.mjs";
+import { test } from "node:test";
+import { drag, look, select, setScope, settled, styleOf, waitForOrigin, waitForStyle, waitUntil } from "./page.mjs";
+import { withPage } from "./session.mjs";
 import { twoSteps, writeBalls } from "./volumes.mjs";
 import { writeFile } from "node:fs/promises";
 
 const cells = ["A1", "B1"];
-let folder, server, browser, page;
+let page;
 
-before(async () => {
-    folder = await makeFolder();
-    const series = `${folder}/series.nrrd`;
-    await writeFile(series, twoSteps());
-    server = await startServer(folder, [...(await writeBalls(folder, 2, 32)), series, "--columns", "3", "--set", "technique=plane"]);
-    browser = await openBrowser();
-    page = await openPage(browser, server.url);
-    await settled(page, cells);
-    await select(page, "A1");
-    await setScope(page, "sheet");
-});
-
-after(async () => {
-    await browser?.close();
-    if (server) await stopServer(server);
-    await removeFolder(folder);
-});
+withPage(
+    async (folder) => {
+        const series = `${folder}/series.nrrd`;
+        await writeFile(series, twoSteps());
+        return [...(await writeBalls(folder, 2, 32)), series, "--columns", "3", "--set", "technique=plane"];
+    },
+    (made) => ({ page } = made),
+    { cells, scope: "sheet" },
+);
 
 const valueOf = async (cell, key) => (await styleOf(page, cell, key)).value;
 const rescale = (label) => page.locator(`[data-rescale="${label}"]`).click();

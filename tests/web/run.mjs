@@ -22,6 +22,9 @@ if (!chromium) skip("there is no Chromium; install it (Debian: apt-get install c
 const packages = process.env.VOXSHEET_PAGE_PACKAGES ?? here;
 if (!existsSync(path.join(packages, "node_modules/playwright-core"))) skip("playwright-core is not installed; npm ci in tests/web installs it");
 
+const data = process.env.VOXSHEET_NEEDED_DATA;
+if (data && !existsSync(data)) skip(`the real data are not beside the project: no ${data}`);
+
 const tests = process.argv.slice(2).length
     ? process.argv.slice(2)
     : readdirSync(here).filter((name) => name.endsWith(".test.mjs")).sort().map((name) => path.join(here, name));
