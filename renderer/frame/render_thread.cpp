@@ -155,8 +155,15 @@ private:
     void publishState() {
         const ResidencyState now = renderer_ ? renderer_->residency().state() : ResidencyState{};
         if (now.evictions > 0 && options_.onFirstEviction) std::exchange(options_.onFirstEviction, {})();
+        published_ = std::chrono::steady_clock::now();
         const std::scoped_lock lock(stateMutex_);
         state_ = now;
+    }
+
+    /// Counting all textures takes as long as drawing a small tile: not after each of many.
+    void publishAfterTile(const FrameJob& job) {
+        const bool last = job.issuedCount == job.frame.tiles.size();
+        if (last || std::chrono::steady_clock::now() - published_ >= kSlice) publishState();
     }
 
     /// Draws the job's next tile, or ends the job.
@@ -243,7 +250,7 @@ private:
             failTile(job, tile);
         }
         if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween(*job);
-        publishState();
+        publishAfterTile(*job);
     }
 
     /// What nothing is more urgent than, and what is timed, is drawn at one stretch.
@@ -378,6 +385,7 @@ private:
     std::shared_ptr<const VolumeProvider> volumes_;
     RenderOptions options_;
     RenderDevice device_;
+    std::chrono::steady_clock::time_point published_; ///< when state_ was told last
     FrameQueue queue_;
     mutable std::mutex stateMutex_;
     ResidencyState state_;

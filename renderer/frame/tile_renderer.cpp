@@ -3,6 +3,7 @@
 #include "base/byte_size.h"
 #include "base/errors.h"
 #include "base/log.h"
+#include "frame/host_resolver.h"
 #include "volume/clip_shape_provider.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ TileRenderer::TileRenderer(std::shared_ptr<const VolumeProvider> volumes, int de
                  device_.textureBudgetBytes),
       techniques_(context_), resolver_(context_), targets_(context_) {}
 
-std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
+std::unique_ptr<ReadbackSlot> TileRenderer::takeSlot(std::size_t bytes) {
     const auto fits = [&](const auto& slot) { return slot->readback.capacityBytes() >= bytes; };
     const auto slot = std::find_if(slots_.begin(), slots_.end(), fits);
     if (slot != slots_.end()) {
@@ -78,16 +79,8 @@ std::unique_ptr<TileInFlight> TileRenderer::takeSlot(std::size_t bytes) {
         slots_.erase(slot);
         return taken;
     }
-    return std::make_unique<TileInFlight>(TileInFlight{gpu::TimerQuery(context_),
-                                                       gpu::Buffer(context_, bytes, 0),
-                                                       gpu::PixelReadback(context_, bytes),
-                                                       {},
-                                                       PixelFormat::Rgba8,
-                                                       0,
-                                                       {},
-                                                       {},
-                                                       0,
-                                                       0.0});
+    return std::make_unique<ReadbackSlot>(ReadbackSlot{
+        gpu::TimerQuery(context_), gpu::Buffer(context_, bytes, 0), gpu::PixelReadback(context_, bytes)});
 }
 
 TileLevels TileRenderer::levelsFor(const TileSpec& tile, LevelChoice choice) const {
@@ -117,35 +110,46 @@ std::unique_ptr<TileInFlight> TileRenderer::begin(const TileSpec& tile, const Fr
     const auto acquired = acquire(tile, frame.levels, levels, deadline);
     if (!acquired) return nullptr;
     const TileVolumes& volumes = *acquired;
-    auto slot = takeSlot(bytes);
-    slot->pixels = {};
-    slot->pixels.size = tile.sizePixels;
-    slot->pixels.level = volumes.volume.volume().level;
-    slot->pixels.standIn = volumes.standIn;
-    slot->pixels.awaited = volumes.awaited;
-    slot->pixels.note = budgetNote(tile, levels, residency_.budgetBytes());
-    slot->pixels.uploadMs = volumes.uploadMs();
-    slot->pixels.readMs = volumes.readMs();
-    slot->format = frame.format;
-    slot->bytes = bytes;
-    slot->begun = Clock::now();
-    slot->nextRow = 0;
-    slot->bandsMs = 0.0;
-    if (breaks == TileBreaks::BetweenBands &&
-        pace_.rows(tile.sizePixels, samplesPerPixel(tile, volumes)) < tile.sizePixels.y) {
-        slot->target.emplace(context_, GL_TEXTURE_2D, GL_RGBA32F, glm::ivec3(tile.sizePixels, 1));
-        drawBand(*slot, tile, volumes);
-        return slot;
+    auto drawing = std::make_unique<TileInFlight>();
+    drawing->pixels.size = tile.sizePixels;
+    drawing->pixels.level = volumes.volume.volume().level;
+    drawing->pixels.standIn = volumes.standIn;
+    drawing->pixels.awaited = volumes.awaited;
+    drawing->pixels.note = budgetNote(tile, levels, residency_.budgetBytes());
+    drawing->pixels.uploadMs = volumes.uploadMs();
+    drawing->pixels.readMs = volumes.readMs();
+    drawing->format = frame.format;
+    drawing->bytes = bytes;
+    drawing->begun = Clock::now();
+    // Timers are checked on the device: a picture of the host has none.
+    if (!frame.checkTimers && techniques_.drawsOnHost(tile, volumes))
+        drawing->onHost = std::exchange(spare_, {});
+    else
+        drawing->slot = takeSlot(bytes);
+    drawing->inBands = breaks == TileBreaks::BetweenBands &&
+                       pace_.rows(tile.sizePixels, samplesPerPixel(tile, volumes)) < tile.sizePixels.y;
+    if (drawing->inBands) {
+        if (drawing->slot)
+            drawing->target.emplace(context_, GL_TEXTURE_2D, GL_RGBA32F, glm::ivec3(tile.sizePixels, 1));
+        drawBand(*drawing, tile, volumes);
+        return drawing;
+    }
+    drawing->nextRow = tile.sizePixels.y;
+    if (!drawing->slot) {
+        techniques_.drawOnHost(tile, volumes, drawing->onHost);
+        resolveOnHost(*drawing, tile.background);
+        drawing->pixels.renderMs = millisecondsSince(drawing->begun);
+        return drawing;
     }
     const gpu::Texture& target = targets_.acquire(tile.sizePixels);
-    slot->nextRow = tile.sizePixels.y;
-    slot->timer.begin();
+    ReadbackSlot& slot = *drawing->slot;
+    slot.timer.begin();
     techniques_.draw(tile, volumes, target);
-    resolver_.resolve(target, tile.background, frame.format, slot->packed);
-    slot->timer.end();
-    slot->readback.start(slot->packed, bytes);
+    resolver_.resolve(target, tile.background, frame.format, slot.packed);
+    slot.timer.end();
+    slot.readback.start(slot.packed, bytes);
     context_.checkErrors("drawing a tile");
-    return slot;
+    return drawing;
 }
 
 void TileRenderer::resume(TileInFlight& tile, const TileSpec& spec, const FrameSpec& frame,
@@ -159,27 +163,47 @@ void TileRenderer::drawBand(TileInFlight& tile, const TileSpec& spec, const Tile
     const double samples = samplesPerPixel(spec, volumes);
     const int first = tile.nextRow;
     const int end = std::min(first + pace_.rows(spec.sizePixels, samples), spec.sizePixels.y);
-    techniques_.draw(spec, volumes, *tile.target, {first, end});
-    glFinish(); // so that the time is known, and nothing of it is left for the tiles in between
+    if (tile.slot) {
+        techniques_.draw(spec, volumes, *tile.target, {first, end});
+        glFinish(); // so that the time is known, and nothing of it is left for the tiles in between
+    } else {
+        techniques_.drawOnHost(spec, volumes, tile.onHost, {first, end});
+    }
     tile.nextRow = end;
     pace_.observe(end - first, spec.sizePixels.x, samples, millisecondsSince(begun));
-    if (tile.isDrawn()) {
-        resolver_.resolve(*tile.target, spec.background, tile.format, tile.packed);
-        tile.readback.start(tile.packed, tile.bytes);
+    if (tile.isDrawn() && tile.slot) {
+        resolver_.resolve(*tile.target, spec.background, tile.format, tile.slot->packed);
+        tile.slot->readback.start(tile.slot->packed, tile.bytes);
+    } else if (tile.isDrawn()) {
+        resolveOnHost(tile, spec.background);
     }
     tile.bandsMs += millisecondsSince(begun);
     context_.checkErrors("drawing a tile");
 }
 
+void TileRenderer::resolveOnHost(TileInFlight& tile, const glm::vec4& background) {
+    TilePixels& pixels = tile.pixels;
+    if (tile.format == PixelFormat::Rgba8)
+        pixels.rgba8 = resolvedRgba8(tile.onHost, pixels.size, background);
+    else
+        pixels.rgba32f = resolvedRgba32f(tile.onHost, pixels.size, background);
+    spare_ = std::move(tile.onHost);
+}
+
 TilePixels TileRenderer::finish(std::unique_ptr<TileInFlight> tile) {
-    const std::span<const std::byte> bytes = tile->readback.finish();
     TilePixels pixels = std::move(tile->pixels);
-    if (tile->target) { // other tiles were drawn in between: only the host knows its own share
+    if (!tile->slot) {
+        if (tile->inBands) pixels.renderMs = tile->bandsMs;
+        pixels.hostMs = pixels.timestampMs = pixels.renderMs;
+        return pixels;
+    }
+    ReadbackSlot& slot = *tile->slot;
+    const std::span<const std::byte> bytes = slot.readback.finish();
+    if (tile->inBands) { // other tiles were drawn in between: only the host knows its own share
         pixels.hostMs = pixels.timestampMs = pixels.renderMs = tile->bandsMs;
-        tile->target.reset();
     } else {
         pixels.hostMs = millisecondsSince(tile->begun);
-        pixels.timestampMs = tile->timer.milliseconds();
+        pixels.timestampMs = slot.timer.milliseconds();
         pixels.renderMs = plausibleRenderMs(pixels.timestampMs, pixels.hostMs);
     }
     const std::size_t values =
@@ -191,9 +215,8 @@ TilePixels TileRenderer::finish(std::unique_ptr<TileInFlight> tile) {
         pixels.rgba32f.resize(values);
         std::memcpy(pixels.rgba32f.data(), bytes.data(), bytes.size());
     }
-    if (tile->readback.capacityBytes() <= kKeptSlotBytes && slots_.size() < kKeptSlots) {
-        slots_.push_back(std::move(tile));
-    }
+    if (slot.readback.capacityBytes() <= kKeptSlotBytes && slots_.size() < kKeptSlots)
+        slots_.push_back(std::move(tile->slot));
     return pixels;
 }
 

@@ -20,18 +20,25 @@
 
 namespace voxsheet {
 
-/// A tile that is being drawn and copied back.
-struct TileInFlight {
+/// What copies a tile back from the device.
+struct ReadbackSlot {
     gpu::TimerQuery timer;
     gpu::Buffer packed;
     gpu::PixelReadback readback;
-    TilePixels pixels; ///< all but the pixels and the render time
+};
+
+/// A tile that is being drawn and copied back.
+struct TileInFlight {
+    std::unique_ptr<ReadbackSlot> slot; ///< null: drawn in host memory
+    std::vector<float> onHost;          ///< of those: rgba, row 0 at the bottom
+    TilePixels pixels;                  ///< all but the pixels and the render time
     PixelFormat format = PixelFormat::Rgba8;
     std::size_t bytes = 0;
     std::chrono::steady_clock::time_point begun;
-    std::optional<gpu::Texture> target; ///< its own, while it is drawn in bands
+    std::optional<gpu::Texture> target; ///< its own, while it is drawn in bands on the device
     int nextRow = 0;                    ///< that is still to be drawn
     double bandsMs = 0.0;               ///< spent on the bands so far
+    bool inBands = false;
 
     [[nodiscard]] bool isDrawn() const { return nextRow >= pixels.size.y; }
 };
@@ -70,7 +77,8 @@ public:
 private:
     [[nodiscard]] std::optional<TileVolumes> acquire(const TileSpec& tile, LevelChoice choice,
                                                      const TileLevels& levels, Deadline deadline);
-    [[nodiscard]] std::unique_ptr<TileInFlight> takeSlot(std::size_t bytes);
+    [[nodiscard]] std::unique_ptr<ReadbackSlot> takeSlot(std::size_t bytes);
+    void resolveOnHost(TileInFlight& tile, const glm::vec4& background);
     void drawBand(TileInFlight& tile, const TileSpec& spec, const TileVolumes& volumes);
     [[nodiscard]] double plausibleRenderMs(double gpuMs, double wallMs);
 
@@ -81,7 +89,8 @@ private:
     TileResolver resolver_;
     TargetPool targets_;
     BandPace pace_;
-    std::vector<std::unique_ptr<TileInFlight>> slots_; ///< idle ones
+    std::vector<std::unique_ptr<ReadbackSlot>> slots_; ///< idle ones
+    std::vector<float> spare_;                         ///< memory of the last picture drawn on the host
     bool warnedOfTimer_ = false;
 };
 

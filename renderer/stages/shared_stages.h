@@ -32,8 +32,8 @@ struct DrawRequest {
     const TileSpec& tile;
     const DrawVolumes& volumes;
     const RayFrame& frame;
-    const gpu::Texture& target;
-    PictureRows rows; ///< nothing beyond them is written
+    const gpu::Texture* target; ///< null: SimdRays draws into host memory
+    PictureRows rows;           ///< nothing beyond them is written
 };
 
 struct SharedStages {

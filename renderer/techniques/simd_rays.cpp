@@ -209,13 +209,14 @@ void SimdRays::setLayers(simd::PictureJob& job, SharedStages& stages, const Draw
     }
 }
 
-simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& request) {
+simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& request,
+                                  std::vector<float>& pixels) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
     simd::PictureJob job;
     job.width = tile.sizePixels.x;
     job.height = tile.sizePixels.y;
-    job.pixels = pixels_.data();
+    job.pixels = pixels.data();
     job.solids = volumes.solids != nullptr ? solids_.data() : nullptr;
     job.rays = raysOf(frame, tile.sizePixels);
     job.clip = clipOf(request);
@@ -255,7 +256,8 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
 
 void SimdRays::readSolids(const DrawRequest& request) {
     const auto rows = request.rows.within(request.tile.sizePixels);
-    solids_.resize(pixels_.size());
+    const auto size = request.tile.sizePixels;
+    solids_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
     request.volumes.solids->download(rows.first, rows.end, GL_RGBA, GL_FLOAT,
                                      std::as_writable_bytes(drawnRows(solids_, request)));
 }
@@ -263,16 +265,22 @@ void SimdRays::readSolids(const DrawRequest& request) {
 void SimdRays::draw(SharedStages& stages, const DrawRequest& request) {
     const auto size = request.tile.sizePixels;
     const auto rows = request.rows.within(size);
-    pixels_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
+    drawOnHost(stages, request, pixels_);
+    request.target->upload({0, rows.first, 0}, {size.x, rows.end - rows.first, 1}, GL_RGBA, GL_FLOAT,
+                           std::as_bytes(drawnRows(pixels_, request)));
+}
+
+void SimdRays::drawOnHost(SharedStages& stages, const DrawRequest& request, std::vector<float>& pixels) {
+    const auto size = request.tile.sizePixels;
+    const auto rows = request.rows.within(size);
+    pixels.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
     if (request.volumes.solids != nullptr) readSolids(request);
-    const auto job = jobFor(stages, request);
+    const auto job = jobFor(stages, request, pixels);
     const auto kernel = kernelOf(request.tile.technique);
     parallelFor((rows.end - rows.first + kRowsPerTask - 1) / kRowsPerTask, 1, [&](long begin, long end) {
         const auto rowOf = [&](long task) { return rows.first + static_cast<int>(task) * kRowsPerTask; };
         kernel(job, rowOf(begin), std::min(rowOf(end), rows.end));
     });
-    request.target.upload({0, rows.first, 0}, {size.x, rows.end - rows.first, 1}, GL_RGBA, GL_FLOAT,
-                          std::as_bytes(drawnRows(pixels_, request)));
 }
 
 } // namespace voxsheet

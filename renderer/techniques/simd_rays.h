@@ -18,10 +18,13 @@ public:
 
     /// As TechniqueSet::draw, of pictures with marchesRays() whose volumes are all in host memory.
     void draw(SharedStages& stages, const DrawRequest& request);
+    /// Likewise into `pixels`: rgba of the whole picture, row 0 at the bottom, made as large as that takes.
+    void drawOnHost(SharedStages& stages, const DrawRequest& request, std::vector<float>& pixels);
 
 private:
     const std::vector<glm::vec4>& tableOf(const std::shared_ptr<const TransferTable>& table);
-    [[nodiscard]] simd::PictureJob jobFor(SharedStages& stages, const DrawRequest& request);
+    [[nodiscard]] simd::PictureJob jobFor(SharedStages& stages, const DrawRequest& request,
+                                          std::vector<float>& pixels);
     void readSolids(const DrawRequest& request);
     void setLayers(simd::PictureJob& job, SharedStages& stages, const DrawRequest& request);
     void setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request);

@@ -129,6 +129,20 @@ const ResidentVolume* volumeOf(const std::optional<VolumeLease>& lease) {
     return lease ? &lease->volume() : nullptr;
 }
 
+/// Checks the tile and calls draw(volumes, request).
+template <typename Draw>
+void withRequest(const TileSpec& tile, const TileVolumes& tileVolumes, const gpu::Texture* target,
+                 const PictureRows& rows, Draw draw) {
+    validate(tile);
+    DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
+                        volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
+    for (const auto& layer : tileVolumes.layers)
+        volumes.layers.push_back(&layer.volume());
+    validatePeriodicWindow(tile.periodic, volumes.volume.meta->grid);
+    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
+    draw(volumes, DrawRequest{tile, volumes, frame, target, rows});
+}
+
 } // namespace
 
 TileVolumes TechniqueSet::acquire(ResidencyManager& residency, const TileSpec& tile) {
@@ -149,20 +163,38 @@ TileVolumes TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileS
 
 void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
                         const gpu::Texture& targetRgba32f, const PictureRows& rows) {
-    validate(tile);
     validateTarget(tile, targetRgba32f);
     auto& stages = implementation_->stages;
-    DrawVolumes volumes{tileVolumes.volume.volume(), volumeOf(tileVolumes.gradients),
-                        volumeOf(tileVolumes.clipObject), volumeOf(tileVolumes.colours)};
-    for (const auto& layer : tileVolumes.layers)
-        volumes.layers.push_back(&layer.volume());
-    validatePeriodicWindow(tile.periodic, volumes.volume.meta->grid);
-    const auto frame = makeRayFrame(tile.camera, tile.sizePixels, volumes.volume.meta->grid, tile.periodic);
-    const DrawRequest request{tile, volumes, frame, targetRgba32f, rows};
-    volumes.solids = implementation_->crystal.draw(stages, request);
-    implementation_->draw(request);
-    if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
+    withRequest(tile, tileVolumes, &targetRgba32f, rows,
+                [&](DrawVolumes& volumes, const DrawRequest& request) {
+                    volumes.solids = implementation_->crystal.draw(stages, request);
+                    implementation_->draw(request);
+                    if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
+                });
     stages.context.checkErrors("drawing a tile");
+}
+
+bool TechniqueSet::drawsOnHost([[maybe_unused]] const TileSpec& tile,
+                               [[maybe_unused]] const TileVolumes& volumes) const {
+#if VOXSHEET_SIMD
+    const ResidentVolume& volume = volumes.volume.volume();
+    const bool hasSolids = !tile.crystal.empty() && volume.meta->crystal;
+    return volume.host && !hasSolids;
+#else
+    return false;
+#endif
+}
+
+void TechniqueSet::drawOnHost(const TileSpec& tile, const TileVolumes& tileVolumes,
+                              [[maybe_unused]] std::vector<float>& rgba, const PictureRows& rows) {
+    if (!drawsOnHost(tile, tileVolumes))
+        throw InternalError("a picture of the host", "its technique needs the GL");
+    withRequest(tile, tileVolumes, nullptr, rows,
+                [&](DrawVolumes& /*volumes*/, [[maybe_unused]] const DrawRequest& request) {
+#if VOXSHEET_SIMD
+                    implementation_->simdRays.drawOnHost(implementation_->stages, request, rgba);
+#endif
+                });
 }
 
 void TechniqueSet::setEmptySpaceSkipping(bool enabled) { implementation_->stages.skipEmptySpace = enabled; }

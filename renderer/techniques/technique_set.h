@@ -7,6 +7,7 @@
 #include "techniques/tile_volumes.h"
 
 #include <memory>
+#include <vector>
 
 namespace voxsheet {
 
@@ -44,6 +45,13 @@ public:
     /// of the ranges documented in TileSpec, GpuError if a program or a texture fails.
     void draw(const TileSpec& tile, const TileVolumes& volumes, const gpu::Texture& targetRgba32f,
               const PictureRows& rows = {});
+
+    /// Whether the picture can be drawn without the GL: drawOnHost.
+    [[nodiscard]] bool drawsOnHost(const TileSpec& tile, const TileVolumes& volumes) const;
+    /// As draw, into host memory: rgba of the whole picture, row 0 at the bottom; resized as needed. Only
+    /// where drawsOnHost(tile, volumes).
+    void drawOnHost(const TileSpec& tile, const TileVolumes& volumes, std::vector<float>& rgba,
+                    const PictureRows& rows = {});
 
     /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
     void setEmptySpaceSkipping(bool enabled);

@@ -54,6 +54,8 @@ Action addStream(CLI::App& app) {
     app.add_option("--height", options->height, "Height of the sheet in pixels")->check(CLI::Range(64, 8192));
     app.add_option("--seconds", options->seconds, "Time of dragging per case")->check(CLI::Range(0.5, 600.0));
     app.add_option("--device", options->device, "EGL device to draw on");
+    app.add_option("--keep", options->keep,
+                   "Folder that keeps the volumes and what is made of them for the next run");
     return withOutput(app, [options] { return runStreamBench(*options); });
 }
 

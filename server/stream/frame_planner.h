@@ -20,9 +20,20 @@ struct PlannedTile {
     std::shared_ptr<const EncodedImage> image; ///< when the cache had it, or once it is drawn
 };
 
+/// Some of a frame's tiles in one encoded picture.
+struct EncodedAtlas {
+    std::vector<std::size_t>
+        tiles; ///< indices into FramePlan::tiles; their images have no bytes of their own
+    std::vector<glm::ivec2> origins; ///< per tile: upper left corner
+    std::string bytes;
+    ImageFormat format = ImageFormat::Jpeg;
+    double encodeMs = 0.0;
+};
+
 /// All dirty tiles while moving, as many final ones as fit a short time at rest.
 struct FramePlan {
     std::vector<PlannedTile> tiles;
+    std::vector<EncodedAtlas> atlases;         ///< once drawn; tiles that are in none are sent one by one
     std::vector<engine::PreparedTile> notices; ///< cells without a picture whose state changed
     bool interactive = false;
     std::uint64_t workbookVersion = 0;

@@ -1,6 +1,8 @@
 #include "stream/stream_client.h"
 
+#include "base/thread_count.h"
 #include "stream/message.h"
+#include "stream/tile_atlas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,8 @@ constexpr auto kRestAfter = 150ms;     ///< no change for so long: final picture
 constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
 constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
+/// Below so many pixels a second atlas, encoded and decoded beside the first, costs more than it saves.
+constexpr std::size_t kAtlasPixels = 200'000;
 
 std::string joined(const std::string& note, const std::string& other) {
     return note.empty() || other.empty() ? note + other : note + ". " + other;
@@ -26,12 +30,42 @@ double milliseconds(std::chrono::steady_clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
 
+/// Everything but the encoded bytes; null, with the error kept in the plan, when there is no picture.
+std::shared_ptr<EncodedImage> imageOf(PlannedTile& pending, const TilePixels& pixels, bool final) {
+    if (!pixels.error.empty()) {
+        pending.prepared.code = pixels.errorKind == ErrorKind::LimitExceeded ? "#MEM!" : "#GPU!";
+        pending.prepared.message = pixels.error;
+        return nullptr;
+    }
+    auto image = std::make_shared<EncodedImage>();
+    image->size = pixels.size;
+    image->level = pixels.level;
+    image->renderMs = pixels.renderMs;
+    image->final = final;
+    image->awaited = pixels.awaited;
+    image->note = pixels.note;
+    return image;
+}
+
+/// What "tile", and each entry of "tiles", says of a picture.
+void describe(nlohmann::json& json, const PlannedTile& pending) {
+    const EncodedImage& image = *pending.image;
+    json["width"] = image.size.x;
+    json["height"] = image.size.y;
+    json["level"] = image.level;
+    json["scale"] = static_cast<double>(image.size.x) / pending.tile.sizePixels.x;
+    json["renderMs"] = image.renderMs;
+    json["final"] = image.final;
+    if (const auto pinned = pending.prepared.needs.pinned) json["pinned"] = *pinned;
+    if (const auto note = joined(pending.prepared.note, image.note); !note.empty()) json["note"] = note;
+}
+
 } // namespace
 
 StreamClient::StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles,
-                           SheetLevels& levels)
+                           SheetLevels& levels, const StreamOptions& options)
     : id_(std::move(id)), sheet_(std::move(sheet)), engine_(engine), tiles_(tiles), levels_(levels),
-      version_(engine.version()), planner_(id_, sheet_, engine, tiles, levels) {}
+      options_(options), version_(engine.version()), planner_(id_, sheet_, engine, tiles, levels) {}
 
 StreamClient::~StreamClient() { engine_.setShown(id_, {}); }
 
@@ -188,29 +222,10 @@ bool StreamClient::draw(FramePlan& plan, std::uint64_t viewId) {
         if (error.kind() != ErrorKind::Cancelled) throw;
         return false;
     }
-    const auto settings = planner_.encoding(plan.interactive);
-    tbb::parallel_for(std::size_t{0}, drawnBy.size(), [&](std::size_t i) {
-        auto& pending = plan.tiles[drawnBy[i]];
-        const auto& pixels = frame.tiles[i];
-        if (!pixels.error.empty()) {
-            pending.prepared.code = pixels.errorKind == ErrorKind::LimitExceeded ? "#MEM!" : "#GPU!";
-            pending.prepared.message = pixels.error;
-            return;
-        }
-        auto image = std::make_shared<EncodedImage>();
-        const auto encodeStart = Clock::now();
-        image->bytes = encodeImage(pixels, settings);
-        image->encodeMs = milliseconds(Clock::now() - encodeStart);
-        image->identity = encodedIdentity(pending.prepared.identity, settings);
-        image->format = settings.format;
-        image->size = pixels.size;
-        image->level = pixels.level;
-        image->renderMs = pixels.renderMs;
-        image->final = !plan.interactive;
-        image->awaited = pixels.awaited;
-        image->note = pixels.note;
-        pending.image = image;
-    });
+    if (options_.atlas && plan.interactive)
+        encodeAtlases(plan, drawnBy, frame);
+    else
+        encodeTiles(plan, drawnBy, frame);
     double pixels = 0.0;
     for (std::size_t i = 0; i < drawnBy.size(); ++i) {
         const auto& pending = plan.tiles[drawnBy[i]];
@@ -224,21 +239,76 @@ bool StreamClient::draw(FramePlan& plan, std::uint64_t viewId) {
     return true;
 }
 
+void StreamClient::encodeTiles(FramePlan& plan, const std::vector<std::size_t>& drawnBy,
+                               const FrameResult& frame) {
+    const auto settings = planner_.encoding(plan.interactive);
+    tbb::parallel_for(std::size_t{0}, drawnBy.size(), [&](std::size_t i) {
+        PlannedTile& pending = plan.tiles[drawnBy[i]];
+        auto image = imageOf(pending, frame.tiles[i], !plan.interactive);
+        if (!image) return;
+        const auto start = Clock::now();
+        image->bytes = encodeImage(frame.tiles[i], settings);
+        image->encodeMs = milliseconds(Clock::now() - start);
+        image->identity = encodedIdentity(pending.prepared.identity, settings);
+        image->format = settings.format;
+        pending.image = std::move(image);
+    });
+}
+
+void StreamClient::encodeAtlases(FramePlan& plan, const std::vector<std::size_t>& drawnBy,
+                                 const FrameResult& frame) {
+    const auto settings = planner_.encoding(plan.interactive);
+    std::vector<std::size_t> drawn; // of the frame's tiles, those with a picture
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < drawnBy.size(); ++i) {
+        PlannedTile& pending = plan.tiles[drawnBy[i]];
+        auto image = imageOf(pending, frame.tiles[i], !plan.interactive);
+        if (!image) continue;
+        image->format = settings.format;
+        drawn.push_back(i);
+        pixels.push_back(frame.tiles[i].rgba8.size() / 4);
+        pending.image = std::move(image);
+    }
+    const auto ends = splitEvenly(pixels, static_cast<std::size_t>(threadCount().threads), kAtlasPixels);
+    plan.atlases.resize(ends.size());
+    tbb::parallel_for(std::size_t{0}, ends.size(), [&](std::size_t run) {
+        const auto start = Clock::now();
+        EncodedAtlas& atlas = plan.atlases[run];
+        std::vector<const TilePixels*> pictures;
+        std::vector<glm::ivec2> sizes;
+        for (std::size_t i = run == 0 ? 0 : ends[run - 1]; i < ends[run]; ++i) {
+            atlas.tiles.push_back(drawnBy[drawn[i]]);
+            pictures.push_back(&frame.tiles[drawn[i]]);
+            sizes.push_back(pictures.back()->size);
+        }
+        const AtlasLayout layout = layOutAtlas(sizes);
+        atlas.bytes = encodeImage(composeAtlas(pictures, layout), settings);
+        atlas.origins = layout.origins;
+        atlas.format = settings.format;
+        atlas.encodeMs = milliseconds(Clock::now() - start);
+    });
+}
+
 void StreamClient::emit(const FramePlan& plan, const ClientView& view, double frameMs) {
     ++frame_;
-    const std::size_t count = plan.notices.size() + plan.tiles.size();
-    std::size_t index = 0;
-    auto header = [&](const sheet::Address& cell, const char* type) {
-        ++index;
-        return nlohmann::json{{"type", type},
-                              {"seq", ++sequence_},
-                              {"frame", frame_},
-                              {"view", view.id},
-                              {"cell", sheet::addressName(cell)},
-                              {"frameEnd", index == count}};
+    std::vector<bool> inAtlas(plan.tiles.size(), false);
+    std::size_t left = plan.notices.size() + plan.tiles.size() + plan.atlases.size();
+    for (const EncodedAtlas& atlas : plan.atlases) {
+        left -= atlas.tiles.size();
+        for (const std::size_t tile : atlas.tiles)
+            inAtlas[tile] = true;
+    }
+    auto header = [&](const char* type) {
+        --left;
+        return nlohmann::json{{"type", type}, {"frame", frame_}, {"view", view.id}, {"frameEnd", left == 0}};
+    };
+    auto identify = [&](nlohmann::json& json, const sheet::Address& cell) {
+        json["seq"] = ++sequence_;
+        json["cell"] = sheet::addressName(cell);
     };
     auto notice = [&](const engine::PreparedTile& tile) {
-        auto json = header(tile.cell, "cell");
+        auto json = header("cell");
+        identify(json, tile.cell);
         json["state"] = tile.progress < 1.0 ? "importing" : (tile.code.empty() ? "empty" : "error");
         json["code"] = tile.code;
         json["message"] = tile.message;
@@ -246,30 +316,43 @@ void StreamClient::emit(const FramePlan& plan, const ClientView& view, double fr
         push(json);
         planner_.stateSent(tile);
     };
+    FrameTiming timing{Clock::now(), frameMs, 0, 0, !plan.interactive};
+    auto sent = [&](const PlannedTile& pending) {
+        planner_.pictureSent(pending);
+        ++timing.tiles;
+        timing.level = std::max(timing.level, pending.image->level);
+    };
     for (const auto& tile : plan.notices)
         notice(tile);
-    FrameTiming timing{Clock::now(), frameMs, 0, 0, !plan.interactive};
-    for (const auto& pending : plan.tiles) {
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+        const PlannedTile& pending = plan.tiles[i];
+        if (inAtlas[i]) continue;
         if (!pending.image) {
             notice(pending.prepared);
             continue;
         }
-        const auto& image = *pending.image;
-        auto json = header(pending.tile.cell, "tile");
-        json["width"] = image.size.x;
-        json["height"] = image.size.y;
-        json["format"] = formatName(image.format);
-        json["level"] = image.level;
-        json["scale"] = static_cast<double>(image.size.x) / pending.tile.sizePixels.x;
-        json["renderMs"] = image.renderMs;
-        json["encodeMs"] = image.encodeMs;
-        json["final"] = image.final;
-        if (const auto pinned = pending.prepared.needs.pinned) json["pinned"] = *pinned;
-        if (const auto note = joined(pending.prepared.note, image.note); !note.empty()) json["note"] = note;
-        push(json, image.bytes);
-        planner_.pictureSent(pending);
-        ++timing.tiles;
-        timing.level = std::max(timing.level, image.level);
+        auto json = header("tile");
+        identify(json, pending.tile.cell);
+        describe(json, pending);
+        json["format"] = formatName(pending.image->format);
+        json["encodeMs"] = pending.image->encodeMs;
+        push(json, pending.image->bytes);
+        sent(pending);
+    }
+    for (const EncodedAtlas& atlas : plan.atlases) {
+        auto json = header("tiles");
+        json["format"] = formatName(atlas.format);
+        json["encodeMs"] = atlas.encodeMs;
+        auto& tiles = json["tiles"] = nlohmann::json::array();
+        for (std::size_t i = 0; i < atlas.tiles.size(); ++i) {
+            const PlannedTile& pending = plan.tiles[atlas.tiles[i]];
+            nlohmann::json tile{{"x", atlas.origins[i].x}, {"y", atlas.origins[i].y}};
+            identify(tile, pending.tile.cell);
+            describe(tile, pending);
+            tiles.push_back(std::move(tile));
+            sent(pending);
+        }
+        push(json, atlas.bytes);
     }
     emitStatus(plan, view.id, frameMs);
     const std::lock_guard lock(mutex_);

@@ -17,7 +17,7 @@ namespace voxsheet::stream {
 class StreamClient {
 public:
     StreamClient(std::string id, std::string sheet, engine::Engine& engine, TileService& tiles,
-                 SheetLevels& levels);
+                 SheetLevels& levels, const StreamOptions& options);
     ~StreamClient(); ///< nobody looks any more
     StreamClient(const StreamClient&) = delete;
     StreamClient& operator=(const StreamClient&) = delete;
@@ -42,6 +42,10 @@ private:
     void queueNotices();
     /// Draws and encodes; false when a newer view made the work needless.
     bool draw(FramePlan& plan, std::uint64_t viewId);
+    /// Encodes each picture by itself.
+    void encodeTiles(FramePlan& plan, const std::vector<std::size_t>& drawnBy, const FrameResult& frame);
+    /// Encodes many pictures in few.
+    void encodeAtlases(FramePlan& plan, const std::vector<std::size_t>& drawnBy, const FrameResult& frame);
     void emit(const FramePlan& plan, const ClientView& view, double frameMs);
     void emitStatus(const FramePlan& plan, std::uint64_t viewId, double frameMs);
     void push(const nlohmann::json& header, std::string_view payload = {});
@@ -51,6 +55,7 @@ private:
     engine::Engine& engine_;
     TileService& tiles_;
     SheetLevels& levels_;
+    const StreamOptions options_;
 
     mutable std::mutex mutex_;
     std::condition_variable wake_;

@@ -47,14 +47,15 @@ StreamHub::~StreamHub() {
     stop();
 }
 
-std::string StreamHub::open(const std::string& sheetName) {
+std::string StreamHub::open(const std::string& sheetName, const StreamOptions& options) {
     static_cast<void>(sheet::sheetNamed(*engine_.snapshot(), sheetName)); // throws NotFound
     const std::lock_guard lock(mutex_);
     if (stopping_) throw Cancelled("stream", "the server is stopping");
     if (clients_.size() >= kMaxStreams)
         throw LimitExceeded("stream", "256 pages are connected already", "close some of them");
     const auto id = randomId();
-    clients_[id] = std::make_shared<StreamClient>(id, sheetName, engine_, tiles_, levelsOf(sheetName));
+    clients_[id] =
+        std::make_shared<StreamClient>(id, sheetName, engine_, tiles_, levelsOf(sheetName), options);
     return id;
 }
 

@@ -2,9 +2,12 @@
 // unacknowledged.
 //
 // Message = u32le headerBytes, u32le payloadBytes, header (UTF-8 JSON), payload (the encoded picture, or
-// nothing). Header types: hello, workbook, datasets (something changed: ask again), tile and cell (in frames,
-// the last of each with frameEnd), status (figures of the last frame), rest {view, version} (nothing more to
-// send for this view and version of the workbook: every tile is final), ping.
+// nothing). Header types: hello, workbook, datasets (something changed: ask again), tile, tiles and cell (in
+// frames, the last of each with frameEnd), status (figures of the last frame), rest {view, version} (nothing
+// more to send for this view and version of the workbook: every tile is final), ping. "tiles" comes only to
+// pages that asked for it: the payload is one picture (an atlas) with what a frame of a gesture changes in
+// many cells; in the header, `tiles` lists each cell with what "tile" says of it, and x and y of its upper
+// left corner there.
 #pragma once
 
 #include "engine/engine.h"
@@ -41,6 +44,10 @@ struct StreamUpdate {
     std::optional<ClientView> view;
 };
 
+struct StreamOptions {
+    bool atlas = false; ///< several tiles may come in one picture ("tiles")
+};
+
 struct StreamStatistics {
     int streams = 0;
     std::uint64_t frames = 0;
@@ -71,7 +78,7 @@ public:
 
     /// Returns the stream's id (unguessable). Throws NotFound if the sheet does not exist, LimitExceeded
     /// beyond 256 streams.
-    std::string open(const std::string& sheet);
+    std::string open(const std::string& sheet, const StreamOptions& options = {});
     void close(const std::string& id);
     /// Throws NotFound if there is no such stream.
     void update(const std::string& id, const StreamUpdate& update);

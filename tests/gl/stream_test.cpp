@@ -173,6 +173,40 @@ TEST_F(Stream, ARestingCameraCostsNoRenderingAndNoBytes) {
     EXPECT_TRUE(untilRest(id, view(4, 96)).tiles.empty());
 }
 
+TEST_F(Stream, AMovingSheetComesInOnePictureToPagesThatAskForIt) {
+    openBalls(9);
+    const auto id = hub_->open("Sheet1", {.atlas = true});
+    static_cast<void>(untilRest(id, view(9, 96)));
+    auto moving = view(9, 96, 50.0);
+    moving.moving = true;
+    hub_->update(id, {std::nullopt, moving});
+    std::set<std::string> cells;
+    for (bool ended = false; !ended;) {
+        const auto bytes = hub_->next(id);
+        ASSERT_TRUE(bytes);
+        const auto message = parseMessage(*bytes);
+        if (!message.header.contains("frameEnd")) continue;
+        ended = message.header.at("frameEnd").get<bool>();
+        ASSERT_EQ(message.header.at("type"), "tiles");
+        EXPECT_EQ(message.header.at("format"), "jpeg");
+        EXPECT_FALSE(message.payload.empty());
+        std::uint64_t last = 0;
+        for (const auto& tile : message.header.at("tiles")) {
+            EXPECT_TRUE(cells.insert(tile.at("cell").get<std::string>()).second) << tile.dump();
+            EXPECT_GT(tile.at("seq").get<std::uint64_t>(), last);
+            last = tile.at("seq").get<std::uint64_t>();
+            EXPECT_FALSE(tile.at("final").get<bool>());
+            EXPECT_EQ(tile.at("x").get<int>() % 16, 0);
+        }
+    }
+    EXPECT_EQ(cells.size(), 9U);
+    // At rest each cell has a lossless picture of its own, that others can be given.
+    const auto rest = untilRest(id, view(9, 96, 50.0));
+    EXPECT_EQ(rest.cells().size(), 9U);
+    for (const auto& tile : rest.tiles)
+        EXPECT_EQ(tile.at("format"), "png");
+}
+
 TEST_F(Stream, OnlyVisibleCellsAreDrawn) {
     openBalls(10);
     const auto id = hub_->open("Sheet1");

@@ -30,6 +30,19 @@ test("subscribers hear of changes only", () => {
     assert.equal(told, 1);
 });
 
+test("pictures alone change nothing that stands around them", () => {
+    const store = newAppStore();
+    const painted = { painted: true, level: 1, final: false };
+    store.dispatch({ type: "tiles/update", tiles: { A1: painted, B1: painted } });
+    const before = store.get();
+    store.dispatch({ type: "tiles/update", tiles: { A1: { ...painted }, B1: { ...painted } } });
+    assert.equal(store.get().tiles, before.tiles);
+    store.dispatch({ type: "tiles/update", tiles: { A1: { final: true }, B1: painted } });
+    assert.equal(store.get().tiles["A1"]!.final, true);
+    assert.equal(store.get().tiles["A1"]!.level, 1);
+    assert.equal(store.get().tiles["B1"], before.tiles["B1"]);
+});
+
 test("opening a stream again counts as restored", () => {
     const store = newAppStore();
     for (const phase of ["live", "lost", "connecting", "live"] as const) store.dispatch({ type: "connection/phase", phase });

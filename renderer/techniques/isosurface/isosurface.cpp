@@ -59,7 +59,7 @@ void drawIsosurface(SharedStages& stages, const DrawRequest& request) {
     program.set("mirroredCapTexels", surfaces.mirroredCap);
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
-    target.bindImage(0, GL_WRITE_ONLY);
+    target->bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(
         program, tile.sizePixels,
         glm::length(glm::dvec3(volume.dims * tile.periodic.replicate)) / tile.sampleDistanceVoxels, rows);

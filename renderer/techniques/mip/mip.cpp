@@ -21,7 +21,7 @@ void drawMip(SharedStages& stages, const DrawRequest& request) {
     program.set("texelSign", volume.valueScale < 0.0 ? -1.0F : 1.0F);
     const float opacity = largestOpacity(*tile.transfer);
     program.set("opacityScale", opacity > 0.0F ? 1.0F / opacity : 0.0F);
-    target.bindImage(0, GL_WRITE_ONLY);
+    target->bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(
         program, tile.sizePixels,
         glm::length(glm::dvec3(volume.dims * tile.periodic.replicate)) / tile.sampleDistanceVoxels, rows);

@@ -141,7 +141,7 @@ void CrystalOverlay::drawUnder(SharedStages& stages, const DrawRequest& request)
     const auto& program = stages.programs.graphics("techniques/overlay/picture_vertex.glsl",
                                                    "techniques/overlay/under_fragment.glsl", {});
     colours_->bind(solidsUnit);
-    const gpu::Framebuffer framebuffer(context_, target);
+    const gpu::Framebuffer framebuffer(context_, *target);
     const auto [firstRow, endRow] = rows.within(tile.sizePixels);
     framebuffer.bindRows(firstRow, endRow);
     program.use();

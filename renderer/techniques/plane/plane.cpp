@@ -66,7 +66,7 @@ void drawPlane(SharedStages& stages, const DrawRequest& request) {
     program.set("planeRight", glm::vec3(picture.right));
     program.set("planeUp", glm::vec3(picture.up));
     program.set("nanColour", tile.transfer->nan);
-    target.bindImage(0, GL_WRITE_ONLY);
+    target->bindImage(0, GL_WRITE_ONLY);
     constexpr double samplesPerPixel = 1.0;
     dispatchPicture(program, tile.sizePixels, samplesPerPixel, rows);
 }

@@ -44,7 +44,7 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));
     program.set("unitsPerRadius", static_cast<float>(frame.radiusWorld / tile.unitLengthWorld));
-    target.bindImage(0, GL_WRITE_ONLY);
+    target->bindImage(0, GL_WRITE_ONLY);
     dispatchPicture(
         program, tile.sizePixels,
         glm::length(glm::dvec3(volume.dims * tile.periodic.replicate)) / tile.sampleDistanceVoxels, rows);

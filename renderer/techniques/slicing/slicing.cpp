@@ -125,7 +125,7 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
             triangles(sliceBox(corners, {0.0, thickness, frame.nearest - 0.5 * thickness}), frame, thickness);
     }
 
-    const gpu::Framebuffer framebuffer(context_, target);
+    const gpu::Framebuffer framebuffer(context_, *target);
     const auto [firstRow, endRow] = rows.within(tile.sizePixels);
     framebuffer.bindRows(firstRow, endRow);
     const glm::vec4 transparent(0.0F);

@@ -103,7 +103,7 @@ void SurfaceTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const bool eyeInside = frame.perspective && isInside(polytope, eye);
     const auto faces = visibleFaces(polytope, tile, placedGrid(grid, tile.periodic), frame, eyeInside);
 
-    const gpu::Framebuffer framebuffer(context_, target, &depthFor(tile.sizePixels));
+    const gpu::Framebuffer framebuffer(context_, *target, &depthFor(tile.sizePixels));
     const auto [firstRow, endRow] = rows.within(tile.sizePixels);
     framebuffer.bindRows(firstRow, endRow);
     const glm::vec4 transparent(0.0F);

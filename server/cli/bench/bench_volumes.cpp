@@ -14,7 +14,16 @@ namespace fs = std::filesystem;
 std::vector<std::string> writeBenchVolumes(const fs::path& folder, int count, int dim) {
     const auto signal = marschnerLobb(dim);
     std::vector<std::string> files;
+    const auto edge = std::to_string(dim);
+    const std::string header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: " + edge + ' ' + edge + ' ' +
+                               edge + "\nspacings: 1 1 1\nencoding: raw\n\n";
     for (int n = 0; n < count; ++n) {
+        // Every count has phases of its own, and so names of its own.
+        const auto file =
+            folder / ("bench_" + edge + "_" + std::to_string(n) + "_of_" + std::to_string(count) + ".nrrd");
+        files.push_back(file.string());
+        std::error_code absent;
+        if (fs::file_size(file, absent) == header.size() + signal.size()) continue;
         std::string voxels(signal.size(), '\0');
         const double shift = static_cast<double>(n) / count;
         for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -22,14 +31,10 @@ std::vector<std::string> writeBenchVolumes(const fs::path& folder, int count, in
             voxels[i] =
                 static_cast<char>(static_cast<unsigned char>((value >= 1.0 ? value - 1.0 : value) * 255.0));
         }
-        const auto file = folder / ("bench_" + std::to_string(n) + ".nrrd");
-        const auto size = std::to_string(dim);
         std::ofstream out(file, std::ios::binary);
-        out << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: " << size << ' ' << size << ' ' << size
-            << "\nspacings: 1 1 1\nencoding: raw\n\n";
+        out << header;
         out.write(voxels.data(), static_cast<std::streamsize>(voxels.size()));
         if (!out.flush()) throw IoError(file.string(), "could not be written");
-        files.push_back(file.string());
     }
     return files;
 }

@@ -10,6 +10,8 @@
 namespace voxsheet::cli {
 
 /// Writes `count` NRRD files of dim^3 8-bit samples (Marschner-Lobb signals, each turned to another phase).
+/// Files that are there already and have the right size are left alone, so that their imports are still
+/// known.
 [[nodiscard]] std::vector<std::string> writeBenchVolumes(const std::filesystem::path& folder, int count,
                                                          int dim);
 

@@ -6,7 +6,9 @@
 #include "cli/bench/stream_probe.h"
 #include "sheet/layout.h"
 
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace voxsheet::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Importing a sheet of large volumes takes its time on a busy machine.
+constexpr double kPatienceSecondsPerSample = 5e-7;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -29,14 +34,18 @@ nlohmann::json viewOf(const engine::Engine& engine, glm::ivec2 tile, double azim
 
 nlohmann::json runCase(const StreamBenchOptions& options, int cells) {
     const bench::ScratchFolder scratch;
+    const auto folder = options.keep.empty() ? scratch.path() : std::filesystem::path(options.keep);
+    std::filesystem::create_directories(folder);
     const auto start = Clock::now();
-    const ServedVolumes served(cells, options.dim, options.device, scratch.path());
+    const ServedVolumes served(cells, options.dim, options.device, folder);
     StreamProbe probe(served.port(), served.engine().snapshot()->sheets.front().name);
     const auto layout = sheet::chooseLayout(static_cast<std::size_t>(cells));
     const glm::ivec2 tile{options.width / layout.columns, options.height / layout.rows};
     probe.post(viewOf(served.engine(), tile, 30.0, false));
-    if (!probe.waitFinal(static_cast<std::size_t>(cells), 120.0))
-        throw IoError("stream bench", "no picture came within 120 s");
+    const double patience = 120.0 + kPatienceSecondsPerSample * cells * std::pow(options.dim, 3);
+    if (!probe.waitFinal(static_cast<std::size_t>(cells), patience))
+        throw IoError("stream bench",
+                      "no picture came within " + std::to_string(std::lround(patience)) + " s");
     const double firstPictureMs = secondsSince(start) * 1e3;
     static_cast<void>(probe.takeFrames());
 

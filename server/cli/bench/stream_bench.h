@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
 #include <vector>
 
 namespace voxsheet::cli {
@@ -14,6 +15,7 @@ struct StreamBenchOptions {
     int height = 800;
     double seconds = 5.0; ///< of dragging per case
     int device = -1;
+    std::string keep; ///< folder that keeps volumes and store for the next run; empty: a temporary one
 };
 
 /// {"bench": "stream", "device", "dim", "size", "cases": [{cells, tile, frames_per_s, latency_ms_p50,

@@ -83,7 +83,7 @@ void StreamProbe::receive(int port, const std::string& sheet) {
     connection.client.set_read_timeout(std::chrono::seconds(60));
     std::string buffer;
     const auto result = connection.client.Get(
-        "/api/v1/sheets/" + sheet + "/stream", [&](const char* data, std::size_t bytes) {
+        "/api/v1/sheets/" + sheet + "/stream?atlas=1", [&](const char* data, std::size_t bytes) {
             buffer.append(data, bytes);
             std::size_t used = 0;
             for (;;) {
@@ -103,6 +103,13 @@ void StreamProbe::receive(int port, const std::string& sheet) {
     changed_.notify_all();
 }
 
+void StreamProbe::take(const nlohmann::json& tile) {
+    const bool final = tile.at("final").get<bool>();
+    current_.scale = std::min(current_.scale, tile.at("scale").get<double>());
+    current_.final = current_.final && final;
+    finalCells_[tile.at("cell").get<std::string>()] = final;
+}
+
 void StreamProbe::take(const nlohmann::json& header, std::string_view payload) {
     const auto type = header.value("type", std::string());
     if (type == "hello") {
@@ -111,17 +118,16 @@ void StreamProbe::take(const nlohmann::json& header, std::string_view payload) {
         changed_.notify_all();
         return;
     }
-    if (type != "tile" && type != "cell") return;
-    if (type == "tile") decode(header.at("format").get<std::string>(), payload);
+    if (type != "tile" && type != "tiles" && type != "cell") return;
+    if (type != "cell") decode(header.at("format").get<std::string>(), payload);
     const bool end = header.at("frameEnd").get<bool>();
     {
         const std::lock_guard lock(mutex_);
-        if (type == "tile") {
-            current_.bytes += payload.size();
-            current_.scale = std::min(current_.scale, header.at("scale").get<double>());
-            current_.final = current_.final && header.at("final").get<bool>();
-            finalCells_[header.at("cell").get<std::string>()] = header.at("final").get<bool>();
-        }
+        current_.bytes += payload.size();
+        if (type == "tile") take(header);
+        if (type == "tiles")
+            for (const auto& tile : header.at("tiles"))
+                take(tile);
         if (end) {
             current_.view = header.at("view").get<std::uint64_t>();
             current_.when = Clock::now();

@@ -44,6 +44,8 @@ private:
     using Clock = std::chrono::steady_clock;
     void receive(int port, const std::string& sheet);
     void take(const nlohmann::json& header, std::string_view payload);
+    /// What is said of one picture; with the lock held.
+    void take(const nlohmann::json& tile);
     void send(const nlohmann::json& body);
 
     int port_;

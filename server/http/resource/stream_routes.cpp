@@ -11,7 +11,8 @@ namespace {
 /// Closes the stream however its response ends, even if it never began.
 class OpenStream {
 public:
-    OpenStream(stream::StreamHub& hub, const std::string& sheet) : hub_(hub), id_(hub.open(sheet)) {}
+    OpenStream(stream::StreamHub& hub, const std::string& sheet, const stream::StreamOptions& options)
+        : hub_(hub), id_(hub.open(sheet, options)) {}
     ~OpenStream() { hub_.close(id_); }
     OpenStream(const OpenStream&) = delete;
     OpenStream& operator=(const OpenStream&) = delete;
@@ -29,7 +30,8 @@ Response openStream(const ApiContext& context, const Request& request) {
     const auto width = request.query.number("width", 1.0, 32768.0);
     const auto height = request.query.number("height", 1.0, 32768.0);
     const auto dpr = request.query.number("dpr", 0.1, 16.0).value_or(1.0);
-    auto open = std::make_shared<OpenStream>(context.hub, sheet.name);
+    const stream::StreamOptions options{request.query.boolean("atlas").value_or(false)};
+    auto open = std::make_shared<OpenStream>(context.hub, sheet.name, options);
     if (width && height)
         context.hub.update(open->id(),
                            {std::nullopt, wholeSheetView(sheet, glm::dvec2(*width, *height) * dpr)});
@@ -55,12 +57,16 @@ void addStreamRoutes(Router& router, const ApiContext& context) {
          .summary =
              "One framed stream per page: only tiles that changed. A message is u32le header bytes, u32le "
              "payload bytes, header (JSON), payload (an encoded picture)",
-         .query = {{"width", "number", "of the whole sheet, CSS pixels; with height: draw all cells at once"},
-                   {"height", "number", "of the whole sheet, CSS pixels"},
-                   {"dpr", "number", "device pixels per CSS pixel"}},
+         .query =
+             {{"width", "number", "of the whole sheet, CSS pixels; with height: draw all cells at once"},
+              {"height", "number", "of the whole sheet, CSS pixels"},
+              {"dpr", "number", "device pixels per CSS pixel"},
+              {"atlas", "boolean",
+               "several tiles of a moving frame may come in one picture (messages \"tiles\": in the header "
+               "the list `tiles` of cell, x, y, width, height and what else a tile says)"}},
          .pool = Pool::Stream,
          .answerType = "application/vnd.voxsheet.stream",
-         .answerDoc = "messages hello, workbook, datasets, tile, cell, status, ping"});
+         .answerDoc = "messages hello, workbook, datasets, tile, tiles (atlas), cell, status, rest, ping"});
     router.add({.method = "POST",
                 .pattern = "/api/v1/streams/{id}",
                 .handler =

@@ -100,5 +100,5 @@ export function cellImageUrl(sheet: string, cell: string, format: string, query:
 }
 
 export function streamUrl(sheet: string, width: number, height: number, dpr: number): string {
-    return withQuery(`${sheetPath(sheet)}/stream`, { width, height, dpr });
+    return withQuery(`${sheetPath(sheet)}/stream`, { width, height, dpr, atlas: 1 });
 }

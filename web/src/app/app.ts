@@ -163,6 +163,9 @@ export class App {
             case "tile":
                 this.painter.tile(message);
                 break;
+            case "tiles":
+                this.painter.atlas(message);
+                break;
             case "cell":
                 this.painter.cell(message);
                 break;

@@ -54,8 +54,17 @@ export function currentSheet(state: BookSlice): SheetState | undefined {
     return state.book?.sheets.find((sheet) => sheet.name === state.sheetName) ?? state.book?.sheets[0];
 }
 
+/** Every element of every tile looks its cell up whenever anything changes. */
+const cellsByName = new WeakMap<SheetState, Map<string, CellState>>();
+
 export function cellOf(sheet: SheetState | undefined, cell: string): CellState | undefined {
-    return sheet?.cells.find((candidate) => candidate.cell === cell);
+    if (!sheet) return undefined;
+    let cells = cellsByName.get(sheet);
+    if (!cells) {
+        cells = new Map(sheet.cells.map((each) => [each.cell, each]));
+        cellsByName.set(sheet, cells);
+    }
+    return cells.get(cell);
 }
 
 /** What the formula bar shows and takes: a formula with "=", or a dataset's name. */

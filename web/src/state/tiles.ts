@@ -5,7 +5,6 @@ export interface TileInfo {
     level: number;
     scale: number;
     final: boolean;
-    renderMs: number;
     /** What a user should know about the last final picture, e.g. why it is coarser than asked for; else empty. */
     note: string;
     state: "ok" | "importing" | "error" | "empty";
@@ -21,7 +20,6 @@ export const newTile: TileInfo = {
     level: 0,
     scale: 1,
     final: false,
-    renderMs: 0,
     note: "",
     state: "ok",
     code: "",
@@ -33,13 +31,23 @@ export type TileAction =
     | { type: "tiles/update"; tiles: Record<string, Partial<TileInfo>> }
     | { type: "tiles/forget" };
 
+function differs(before: TileInfo, info: Partial<TileInfo>): boolean {
+    return (Object.keys(info) as (keyof TileInfo)[]).some((key) => info[key] !== before[key]);
+}
+
 export function reduceTiles(state: TileSlice, action: TileAction): TileSlice {
     switch (action.type) {
         case "tiles/forget":
             return {};
         case "tiles/update": {
-            const next = { ...state };
-            for (const [cell, info] of Object.entries(action.tiles)) next[cell] = { ...(state[cell] ?? newTile), ...info };
+            let next = state;
+            for (const [cell, info] of Object.entries(action.tiles)) {
+                const before = state[cell] ?? newTile;
+                // Most frames of a gesture change pictures alone: nothing that stands around them is drawn again.
+                if (state[cell] && !differs(before, info)) continue;
+                if (next === state) next = { ...state };
+                next[cell] = { ...before, ...info };
+            }
             return next;
         }
     }

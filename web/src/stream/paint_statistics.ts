@@ -1,6 +1,7 @@
 // Counts of what was really painted, for the status bar and for tests (window.voxsheet.stats).
 
-const kept = 4096;
+/** At least so many records are kept, and at most twice as many: cutting the list at every paint costs more than painting. */
+const kept = 8192;
 
 export interface PaintRecord {
     seq: number;
@@ -32,7 +33,7 @@ export class PaintStatistics {
         ++this.tilesPainted;
         this.bytesPainted += record.bytes;
         this.recent.push(record);
-        if (this.recent.length > kept) this.recent.splice(0, this.recent.length - kept);
+        if (this.recent.length > 2 * kept) this.recent.splice(0, this.recent.length - kept);
     }
 
     /** Sequence numbers start again with every stream. */

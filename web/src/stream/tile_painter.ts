@@ -14,15 +14,32 @@ function numberOf(value: unknown, fallback = 0): number {
 
 const mimeTypes: Record<string, string> = { jpeg: "image/jpeg", jpg: "image/jpeg", png: "image/png", webp: "image/webp" };
 
+/** A tile's part of an encoded picture, or all of it. */
+interface Place {
+    x: number;
+    y: number;
+    width: number;
+    height: number;
+}
+
+/** A cell's picture as it came; many cells may share one. */
+interface Picture {
+    encoded: Blob;
+    place: Place | null;
+}
+
 /** The picture keeps its own size; CSS stretches it over the tile while the resolution is reduced. */
-function draw(canvas: HTMLCanvasElement, bitmap: ImageBitmap): void {
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-        canvas.width = bitmap.width;
-        canvas.height = bitmap.height;
-    }
+function draw(canvas: HTMLCanvasElement, bitmap: ImageBitmap, place: Place | null): void {
+    const { x, y, width, height } = place ?? { x: 0, y: 0, width: bitmap.width, height: bitmap.height };
     const context = canvas.getContext("2d");
-    context?.clearRect(0, 0, canvas.width, canvas.height);
-    context?.drawImage(bitmap, 0, 0);
+    // Setting a size clears.
+    if (canvas.width !== width || canvas.height !== height) {
+        canvas.width = width;
+        canvas.height = height;
+    } else if (!place) {
+        context?.clearRect(0, 0, width, height);
+    }
+    context?.drawImage(bitmap, x, y, width, height, 0, 0, width, height);
 }
 
 export class TilePainter {
@@ -32,7 +49,7 @@ export class TilePainter {
     private opening = 0;
     private pending: Record<string, Partial<TileInfo>> = {};
     /** The last picture of each cell: the server does not send again what it knows to be on show. */
-    private readonly newest = new Map<string, Blob>();
+    private readonly newest = new Map<string, Picture>();
 
     constructor(private readonly events: PaintEvents) {}
 
@@ -42,8 +59,8 @@ export class TilePainter {
         if (!picture) return;
         this.inOrder(this.opening, async () => {
             if (this.canvases.get(cell) !== canvas || this.newest.get(cell) !== picture) return;
-            const bitmap = await createImageBitmap(picture);
-            draw(canvas, bitmap);
+            const bitmap = await createImageBitmap(picture.encoded);
+            draw(canvas, bitmap, picture.place);
             bitmap.close();
         });
     }
@@ -60,12 +77,30 @@ export class TilePainter {
         this.statistics.streamOpened();
     }
 
-    tile({ header, payload }: StreamMessage): void {
+    /** One picture of one cell. */
+    tile(message: StreamMessage): void {
+        this.pictures(message, [{ header: message.header, place: null }]);
+    }
+
+    /** Pictures of many cells in one: decoded once. JPEG, so that nothing needs to be cleared under them. */
+    atlas(message: StreamMessage): void {
+        const { header } = message;
+        const tiles = Array.isArray(header["tiles"]) ? (header["tiles"] as Record<string, unknown>[]) : [];
+        this.pictures(
+            message,
+            tiles.map((tile) => ({
+                header: { ...header, ...tile },
+                place: { x: numberOf(tile["x"]), y: numberOf(tile["y"]), width: numberOf(tile["width"]), height: numberOf(tile["height"]) },
+            })),
+        );
+    }
+
+    private pictures({ header, payload }: StreamMessage, tiles: { header: Record<string, unknown>; place: Place | null }[]): void {
         const opening = this.opening;
         const type = mimeTypes[String(header["format"])] ?? "image/png";
         // Copied: the decoder's buffer goes on with the next messages.
-        const picture = new Blob([payload.slice()], { type });
-        const decoded = createImageBitmap(picture);
+        const encoded = new Blob([payload.slice()], { type });
+        const decoded = createImageBitmap(encoded);
         this.inOrder(opening, async () => {
             let bitmap: ImageBitmap | null = null;
             try {
@@ -75,8 +110,11 @@ export class TilePainter {
             }
             if (opening !== this.opening) return bitmap?.close();
             if (bitmap) {
-                this.newest.set(String(header["cell"]), picture);
-                this.paint(header, bitmap, picture.size);
+                for (const tile of tiles) {
+                    this.newest.set(String(tile.header["cell"]), { encoded, place: tile.place });
+                    this.paint(tile.header, bitmap, tile.place, encoded.size / tiles.length);
+                }
+                bitmap.close();
             }
             this.endOfFrame(header);
         });
@@ -105,11 +143,10 @@ export class TilePainter {
         this.order = this.order.then(() => (opening === this.opening ? step() : undefined));
     }
 
-    private paint(header: StreamMessage["header"], bitmap: ImageBitmap, bytes: number): void {
+    private paint(header: Record<string, unknown>, bitmap: ImageBitmap, place: Place | null, bytes: number): void {
         const cell = String(header["cell"]);
         const canvas = this.canvases.get(cell);
-        if (canvas) draw(canvas, bitmap);
-        bitmap.close();
+        if (canvas) draw(canvas, bitmap, place);
         const info: Partial<TileInfo> = {
             painted: true,
             state: "ok",
@@ -119,7 +156,6 @@ export class TilePainter {
             level: numberOf(header["level"]),
             scale: numberOf(header["scale"], 1),
             final: header["final"] === true,
-            renderMs: numberOf(header["renderMs"]),
         };
         // What holds for the picture at rest stays through the coarse ones of a gesture.
         if (info.final) info.note = String(header["note"] ?? "");

@@ -36,7 +36,16 @@ function sameJson(a: unknown, b: unknown): boolean {
     return JSON.stringify(a) === JSON.stringify(b);
 }
 
-export function CrosshairLines({ cell: name }: { cell: string }) {
+/** Nothing where there is no crosshair: whatever follows the camera has its price in every cell. */
+export function CrosshairLines({ cell }: { cell: string }) {
+    const placed = useSelect((state) => {
+        const value = state.page.live[cell]?.["plane.crosshair"] ?? cellOf(currentSheet(state.book), cell)?.style["plane.crosshair"]?.value;
+        return Array.isArray(value);
+    });
+    return placed ? <PlacedCrosshair cell={cell} /> : null;
+}
+
+function PlacedCrosshair({ cell: name }: { cell: string }) {
     const { svg, size } = usePictureSize();
     const cell = useSelect((state) => cellOf(currentSheet(state.book), name));
     const live = useSelect((state) => state.page.live[name]);

@@ -200,7 +200,7 @@ function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
                     {columns
                         .filter((column) => isShown(row, column))
                         .map((column) => (
-                            <DropTile key={`${sheet.name} ${column}`} address={{ column, row }} />
+                            <DropTile key={`${sheet.name} ${column}`} address={{ column, row }} cramped={isCramped(size)} />
                         ))}
                 </div>
             ))}
@@ -211,7 +211,7 @@ function Grid({ sheet, area }: { sheet: SheetState; area: Area }) {
 export const datasetDragType = "application/x-voxsheet-dataset";
 
 /** A tile that takes a dataset dragged from the list. */
-function DropTile({ address }: { address: Address }) {
+function DropTile({ address, cramped }: { address: Address; cramped: boolean }) {
     const app = useApp();
     const [over, setOver] = useState(false);
     const takes = (event: DragEvent): boolean => event.dataTransfer?.types.includes(datasetDragType) ?? false;
@@ -236,7 +236,7 @@ function DropTile({ address }: { address: Address }) {
                 });
             }}
         >
-            <Tile address={address} />
+            <Tile address={address} cramped={cramped} />
         </div>
     );
 }

@@ -107,7 +107,8 @@ function usePicture(cell: string) {
     return { picture, canvas };
 }
 
-export function Tile({ address }: { address: Address }) {
+/** \param cramped  too small for marks on the picture, unless it is enlarged */
+export function Tile({ address, cramped }: { address: Address; cramped: boolean }) {
     const app = useApp();
     const { store, view } = app;
     const name = formatAddress(address);
@@ -125,6 +126,7 @@ export function Tile({ address }: { address: Address }) {
     const title = cellTitle(cell);
     const shown = shownState(cell, tile);
     const drawn = shown.state === "ok";
+    const marked = enlarged || !cramped;
     const titleProps = useMemo(
         () => ({
             onClick: (event: MouseEvent) => {
@@ -186,9 +188,9 @@ export function Tile({ address }: { address: Address }) {
             >
                 <canvas ref={canvas} class={drawn && tile.painted ? "" : "blank"} width={1} height={1} />
                 {drawn && !tile.final && <div class="refining" aria-hidden="true" />}
-                {drawn && tile.painted && <OrientationMarks cell={name} />}
+                {drawn && tile.painted && marked && <OrientationMarks cell={name} />}
                 {drawn && tile.painted && <CrosshairLines cell={name} />}
-                {drawn && tile.painted && <ColourBar cell={name} />}
+                {drawn && tile.painted && marked && <ColourBar cell={name} />}
                 {drawn && clipHandles && !isPlane(cell) && <ClipHandles cell={name} />}
                 {drawn && <ProbeChip cell={name} />}
                 {shown.state === "importing" && <TileProgress progress={shown.progress} label="Importing" />}
