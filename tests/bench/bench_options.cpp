@@ -53,6 +53,9 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
                 "  --sampling S   adaptive or even (adaptive)\n"
                 "  --scans FOLDER  (bench_vs_vtk) the real scans of the test data instead\n"
                 "  --only TEXT  cases with this in their names\n"
+                "  --large      against VTK: volumes of 512^3, u8 and u16, at 1024x1024, too; alone with "
+                "--only "
+                "512^3\n"
                 "  --json       one JSON object on stdout (always so)\n",
                 usage.c_str());
             return std::nullopt;
@@ -73,10 +76,12 @@ std::optional<VolumeBenchOptions> parseOptions(int count, char** arguments, cons
             options.techniques.emplace_back(arguments[++i]);
         else if (argument == "--sampling")
             options.adaptive = samplingAfter(count, arguments, i);
-        else if (argument == "--scans" && i + 1 < count)
-            options.scans = arguments[++i];
         else if (argument == "--only" && i + 1 < count)
             options.only = arguments[++i];
+        else if (argument == "--large")
+            options.large = true;
+        else if (argument == "--scans" && i + 1 < count)
+            options.scans = arguments[++i];
         else if (argument != "--json")
             throw InvalidInput(argument, "there is no such option", "see --help");
     }
@@ -100,6 +105,10 @@ int runBenchProgram(int count, char** arguments, const std::string& usage,
         return 1;
     }
     return 0;
+}
+
+bool isWanted(const VolumeBenchOptions& options, const std::string& name) {
+    return name.find(options.only) != std::string::npos;
 }
 
 void tellProgress(const std::string& name) { std::fprintf(stderr, "%s\n", name.c_str()); }

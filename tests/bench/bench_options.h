@@ -20,6 +20,9 @@ namespace voxsheet::bench {
 int runBenchProgram(int count, char** arguments, const std::string& usage,
                     const std::function<std::string(const VolumeBenchOptions&)>& bench);
 
+/// Whether the case of this name was asked for (--only).
+[[nodiscard]] bool isWanted(const VolumeBenchOptions& options, const std::string& name);
+
 /// Progress, on stderr.
 void tellProgress(const std::string& name);
 

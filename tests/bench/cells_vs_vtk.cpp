@@ -1,7 +1,7 @@
 #include "bench/cells_vs_vtk.h"
 
 #include "bench/bench_options.h"
-#include "bench/json_text.h"
+#include "bench/vs_vtk_result.h"
 #include "fields/inside.h"
 #include "fields/scenes.h"
 #include "image/vtk_sheet.h"
@@ -27,10 +27,14 @@ struct Sheet {
     bool adaptive = false;
 };
 
+int cellSamples(const VolumeBenchOptions& options) { return std::min(options.cellSamples, options.samples); }
+
+int cellPixels(const VolumeBenchOptions& options) { return options.samples < 128 ? 64 : 256; }
+
 Sheet sheetOf(const VolumeBenchOptions& options) {
     Sheet sheet;
-    sheet.samples = std::min(options.cellSamples, options.samples);
-    sheet.pixels = options.samples < 128 ? 64 : 256;
+    sheet.samples = cellSamples(options);
+    sheet.pixels = cellPixels(options);
     sheet.stride = std::max(1, sheet.pixels / 32);
     const auto field = fields::gaussianSum();
     const auto grid = fields::gridOf(fields::Geometry::Isotropic, sheet.samples);
@@ -87,12 +91,13 @@ FrameResult drawSheet(RenderThread& thread, const Sheet& sheet, int frame) {
 
 } // namespace
 
-std::string cellsAgainstVtk(const VolumeBenchOptions& options) {
-    const auto sheet = sheetOf(options);
-    const auto name = std::to_string(kCells) + " cells of " + std::to_string(sheet.samples) + "^3 " +
-                      scalarName(options.type) + " " + std::to_string(sheet.pixels) + "x" +
-                      std::to_string(sheet.pixels) + " filled raycast";
+std::vector<std::string> cellsAgainstVtk(const VolumeBenchOptions& options) {
+    const auto pixels = std::to_string(cellPixels(options));
+    const auto name = std::to_string(kCells) + " cells of " + std::to_string(cellSamples(options)) + "^3 " +
+                      scalarName(options.type) + " " + pixels + "x" + pixels + " filled raycast";
+    if (!isWanted(options, name)) return {};
     tellProgress(name);
+    const auto sheet = sheetOf(options);
     auto provider = std::make_shared<MemoryVolumeProvider>();
     std::vector<const fields::SampledField*> volumes;
     for (const auto& volume : sheet.volumes) {
@@ -110,30 +115,20 @@ std::string cellsAgainstVtk(const VolumeBenchOptions& options) {
         return fields::difference(fields::everyNth(picture, sheet.stride), truth);
     };
     const auto first = drawSheet(thread, sheet, 0);
-    const auto ours = distance(
+    VsVtkResult result;
+    result.name = name;
+    result.voxsheet = distance(
         sideBySide([&](int cell) { return pictureOf(first.tiles[static_cast<std::size_t>(cell)]); }));
-    const auto theirs = distance(gpu.draw(tilesOf(sheet, 0)));
-    const auto cpus = distance(cpu.draw(tilesOf(sheet, 0)));
-    std::vector<double> ourMs, gpuMs, cpuMs;
+    result.vtkGpu = distance(gpu.draw(tilesOf(sheet, 0)));
+    result.vtkCpu = distance(cpu.draw(tilesOf(sheet, 0)));
     for (int frame = 1; frame <= options.frames; ++frame) {
-        ourMs.push_back(drawSheet(thread, sheet, frame).wallMs);
+        result.voxsheetMs.push_back(drawSheet(thread, sheet, frame).wallMs);
         (void)gpu.draw(tilesOf(sheet, frame));
-        gpuMs.push_back(gpu.lastMs());
+        result.vtkGpuMs.push_back(gpu.lastMs());
         (void)cpu.draw(tilesOf(sheet, frame));
-        cpuMs.push_back(cpu.lastMs());
+        result.vtkCpuMs.push_back(cpu.lastMs());
     }
-    const double our = median(ourMs);
-    return jsonObject({{"name", jsonString(name)},
-                       {"voxsheet_ms", jsonNumber(our)},
-                       {"vtk_gpu_ms", jsonNumber(median(gpuMs))},
-                       {"vtk_cpu_ms", jsonNumber(median(cpuMs))},
-                       {"ratio_vtk_gpu", jsonNumber(median(gpuMs) / our)},
-                       {"ratio_vtk_cpu", jsonNumber(median(cpuMs) / our)},
-                       {"voxsheet_psnr", jsonNumber(ours.psnr)},
-                       {"vtk_gpu_psnr", jsonNumber(theirs.psnr)},
-                       {"vtk_cpu_psnr", jsonNumber(cpus.psnr)},
-                       {"voxsheet_p999", jsonNumber(ours.p999)},
-                       {"vtk_gpu_p999", jsonNumber(theirs.p999)}});
+    return {jsonOf(result)};
 }
 
 } // namespace voxsheet::bench

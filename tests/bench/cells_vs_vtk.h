@@ -4,11 +4,13 @@
 #include "bench/volume_bench.h"
 
 #include <string>
+#include <vector>
 
 namespace voxsheet::bench {
 
 /// 25 volumes of 128^3 at 256x256 each (a quarter of that for smaller options.samples), filled, as
-/// bench_vs_vtk gives a case. PSNR: over the whole sheet, of every fourth pixel, to the converged pictures.
-[[nodiscard]] std::string cellsAgainstVtk(const VolumeBenchOptions& options);
+/// bench_vs_vtk gives a case; nothing if options.only is not in its name. PSNR: over the whole sheet, of
+/// every fourth pixel, to the converged pictures.
+[[nodiscard]] std::vector<std::string> cellsAgainstVtk(const VolumeBenchOptions& options);
 
 } // namespace voxsheet::bench

@@ -76,12 +76,6 @@ std::vector<std::string> chosen(const VolumeBenchOptions& options) {
     return all ? std::vector<std::string>{"vr", "sr", "vc", "ie"} : options.techniques;
 }
 
-std::string sizeName(const VolumeBenchOptions& options, int samples) {
-    const auto n = std::to_string(samples);
-    const auto p = std::to_string(options.pixels);
-    return n + "^3 " + scalarName(options.type) + " " + p + "x" + p + " ";
-}
-
 /// Where samples would be taken were none skipped: one per pixel on a face, else along the kept part of each
 /// ray.
 double sampleCountOf(const TileSpec& tile, const fields::Sources& sources) {
@@ -113,15 +107,11 @@ std::string runCase(RenderThread& thread, const VolumeProvider& provider, const 
 
 } // namespace
 
-fields::SampledField insideVolume(const VolumeBenchOptions& options, int samples) {
-    return fields::sampleField(insideField(), fields::gridOf(fields::Geometry::Isotropic, samples),
-                               options.type, kDataset);
-}
+Grid insideGrid(int samples) { return fields::gridOf(fields::Geometry::Isotropic, samples); }
 
-std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int samples,
-                                    const fields::SampledField& sampled) {
-    const auto& grid = sampled.meta.grid;
-    const auto size = sizeName(options, samples);
+std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, const Grid& grid) {
+    const int samples = grid.dims.x;
+    const auto size = sceneName(options, benchVolumeName(options, samples), "");
     std::vector<InsideCase> cases;
     const auto techniques = chosen(options);
     for (const auto& technique : techniques)
@@ -168,11 +158,11 @@ std::string insideBench(const VolumeBenchOptions& options,
     std::vector<std::string> cases;
     std::optional<RenderDevice> device;
     for (const int samples : sizes) {
-        auto sampled = insideVolume(options, samples);
-        const auto list = insideCases(options, samples, sampled);
-        const auto grid = sampled.meta.grid;
+        const auto sampled = benchVolume(options, samples);
+        const auto grid = sampled->meta.grid;
+        const auto list = insideCases(options, grid);
         auto memory = std::make_shared<MemoryVolumeProvider>();
-        memory->add(std::move(sampled.meta), std::move(sampled.arrays));
+        memory->add(sampled->meta, sampled->arrays);
         const ClipShapeProvider provider(memory);
         RenderOptions renderOptions;
         renderOptions.device = options.device;

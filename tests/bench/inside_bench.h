@@ -17,14 +17,13 @@ struct InsideCase {
     TileSpec tile;
 };
 
-/// The cases of one size of volume: for each technique without and with light; then `clip 1/8 by planes` and
-/// `clip 1/8 by object`: the volume rendering that is left when seven eighths of the box are cut away. Throws
-/// InvalidInput for a technique that is not vr, sr, vc, ie or all.
-[[nodiscard]] std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, int samples,
-                                                  const fields::SampledField& sampled);
+/// The cases of benchVolume on its grid: for each technique without and with light; then `clip 1/8 by planes`
+/// and `clip 1/8 by object`: the volume rendering that is left when seven eighths of the box are cut away.
+/// Throws InvalidInput for a technique that is not vr, sr, vc, ie or all.
+[[nodiscard]] std::vector<InsideCase> insideCases(const VolumeBenchOptions& options, const Grid& grid);
 
-/// The volume of the bench.
-[[nodiscard]] fields::SampledField insideVolume(const VolumeBenchOptions& options, int samples);
+/// Of benchVolume.
+[[nodiscard]] Grid insideGrid(int samples);
 
 /// The tile of a case as the camera goes round.
 [[nodiscard]] TileSpec turned(const InsideCase& one, const Grid& grid, int frame);

@@ -2,7 +2,7 @@
 
 #include "bench/bench_options.h"
 #include "bench/inside_bench.h"
-#include "bench/json_text.h"
+#include "bench/vs_vtk_result.h"
 #include "fields/inside.h"
 #include "image/vtk_peer.h"
 #include "image/vtk_polygons.h"
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace voxsheet::bench {
 namespace {
@@ -48,36 +49,22 @@ std::string compare(RenderThread& thread, const VolumeProvider& provider, const 
     const auto distance = [&](const fields::Picture& picture) {
         return fields::difference(fields::everyNth(picture, stride), truth);
     };
+    VsVtkResult result;
+    result.name = one.name;
     // The first pictures also compile and upload.
-    const auto ours = distance(pictureOf(drawTile(thread, first).tiles[0]));
-    const auto theirs = distance(one.gpu.draw(first));
-    std::optional<fields::Difference> cpus;
-    if (one.cpu) cpus = distance(one.cpu->draw(first));
-    std::vector<double> ourMs, gpuMs, cpuMs;
+    result.voxsheet = distance(pictureOf(drawTile(thread, first).tiles[0]));
+    result.vtkGpu = distance(one.gpu.draw(first));
+    if (one.cpu) result.vtkCpu = distance(one.cpu->draw(first));
     for (int frame = 0; frame < frames; ++frame) {
         const auto tile = one.tile(frame + 1);
-        ourMs.push_back(drawTile(thread, tile).wallMs);
+        result.voxsheetMs.push_back(drawTile(thread, tile).wallMs);
         (void)one.gpu.draw(tile);
-        gpuMs.push_back(one.gpu.lastMs());
+        result.vtkGpuMs.push_back(one.gpu.lastMs());
         if (!one.cpu) continue;
         (void)one.cpu->draw(tile);
-        cpuMs.push_back(one.cpu->lastMs());
+        result.vtkCpuMs.push_back(one.cpu->lastMs());
     }
-    const double our = median(ourMs);
-    const auto orNull = [&](const std::vector<double>& times, double scale) {
-        return times.empty() ? std::string("null") : jsonNumber(median(times) / scale);
-    };
-    return jsonObject({{"name", jsonString(one.name)},
-                       {"voxsheet_ms", jsonNumber(our)},
-                       {"vtk_gpu_ms", orNull(gpuMs, 1.0)},
-                       {"vtk_cpu_ms", orNull(cpuMs, 1.0)},
-                       {"ratio_vtk_gpu", orNull(gpuMs, our)},
-                       {"ratio_vtk_cpu", orNull(cpuMs, our)},
-                       {"voxsheet_psnr", jsonNumber(ours.psnr)},
-                       {"vtk_gpu_psnr", jsonNumber(theirs.psnr)},
-                       {"vtk_cpu_psnr", cpus ? jsonNumber(cpus->psnr) : std::string("null")},
-                       {"voxsheet_p999", jsonNumber(ours.p999)},
-                       {"vtk_gpu_p999", jsonNumber(theirs.p999)}});
+    return jsonOf(result);
 }
 
 /// A table of one colour: VTK's isosurface blend mode colours by it.
@@ -105,14 +92,12 @@ std::vector<unsigned char> maskOf(const TileSpec& tile, const Grid& grid) {
 /// All that the comparisons draw with.
 class Rivals {
 public:
-    Rivals(const VolumeBenchOptions& options, const fields::SampledField& sampled)
-        : options_(options), sampled_(sampled), grid_(sampled.meta.grid),
-          cases_(insideCases(options, options.samples, sampled)) {}
+    Rivals(const fields::SampledField& sampled, std::vector<InsideCase> cases)
+        : sampled_(sampled), grid_(sampled.meta.grid), cases_(std::move(cases)) {}
 
-    /// The cases of the bench that were asked for, each against what VTK has for it.
+    /// Each case against what VTK has for it.
     void each(const std::function<void(const Comparison&)>& visit) {
         for (const auto& one : cases_) {
-            if (one.name.find(options_.only) == std::string::npos) continue;
             const auto is = [&](const char* ending) {
                 const std::string text(ending);
                 return one.name.size() >= text.size() &&
@@ -184,7 +169,6 @@ private:
         visit({one.name + " value moves (VTK: flying edges + polygons)", moving, peer, {}});
     }
 
-    const VolumeBenchOptions& options_;
     const fields::SampledField& sampled_;
     Grid grid_;
     std::vector<InsideCase> cases_;
@@ -193,15 +177,18 @@ private:
 } // namespace
 
 std::vector<std::string> insideAgainstVtk(const VolumeBenchOptions& options) {
-    const auto sampled = insideVolume(options, options.samples);
+    auto wanted = insideCases(options, insideGrid(options.samples));
+    std::erase_if(wanted, [&](const InsideCase& one) { return !isWanted(options, one.name); });
+    if (wanted.empty()) return {}; // before the volume is made
+    const auto sampled = benchVolume(options, options.samples);
     auto memory = std::make_shared<MemoryVolumeProvider>();
-    memory->add(sampled.meta, sampled.arrays);
+    memory->add(sampled->meta, sampled->arrays);
     const ClipShapeProvider provider(memory);
     RenderOptions renderOptions;
     renderOptions.device = options.device;
     RenderThread thread(memory, renderOptions);
     std::vector<std::string> cases;
-    Rivals(options, sampled).each([&](const Comparison& one) {
+    Rivals(*sampled, std::move(wanted)).each([&](const Comparison& one) {
         cases.push_back(compare(thread, provider, one, options.frames));
     });
     return cases;

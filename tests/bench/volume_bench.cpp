@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace voxsheet::bench {
 namespace {
@@ -21,50 +22,53 @@ int truthStride(const VolumeBenchOptions& options) { return std::max(1, options.
 
 fields::AnalyticField benchField() { return fields::gaussianSum(); }
 
-std::shared_ptr<const TransferTable> tableOf(Material material, double low, double high) {
+} // namespace
+
+std::shared_ptr<const fields::SampledField> benchVolume(const VolumeBenchOptions& options, int samples) {
+    return std::make_shared<const fields::SampledField>(fields::sampleField(
+        benchField(), fields::gridOf(fields::Geometry::Isotropic, samples), options.type, kDataset));
+}
+
+VolumeLook lookOf(Material material, double low, double high, const Grid& grid) {
+    const auto edges = glm::dvec3(grid.dims) * spacingWorld(grid);
+    const double unitLength = (edges.x + edges.y + edges.z) / 3.0 / 256.0;
     switch (material) {
     case Material::Filled:
-        return fields::filledTable(low, high);
+        return {"filled", fields::filledTable(low, high), unitLength};
     case Material::SharpPeaks:
-        return fields::peaksTable(low, high);
+        return {"sharp peaks", fields::peaksTable(low, high), unitLength};
     case Material::Sparse:
         break;
     }
-    return fields::sparseTable(low, high);
+    return {"sparse", fields::sparseTable(low, high), unitLength};
 }
 
-const char* nameOf(Material material) {
-    if (material == Material::SharpPeaks) return " sharp peaks";
-    return material == Material::Filled ? " filled" : " sparse";
+VolumeLook benchLook(Material material, int samples) {
+    const auto field = benchField();
+    return lookOf(material, field.low, field.high, fields::gridOf(fields::Geometry::Isotropic, samples));
 }
 
-} // namespace
-
-VolumeScene::VolumeScene(const VolumeBenchOptions& options, Material material)
-    : VolumeScene(options, material, std::to_string(options.samples) + "^3 " + scalarName(options.type),
-                  fields::sampleField(benchField(),
-                                      fields::gridOf(fields::Geometry::Isotropic, options.samples),
-                                      options.type, kDataset),
-                  benchField().low, benchField().high) {}
-
-VolumeScene::VolumeScene(const VolumeBenchOptions& options, Material material, std::string volume,
-                         fields::SampledField sampled, double low, double high)
-    : options_(options), material_(material), volume_(std::move(volume)), sampled_(std::move(sampled)),
-      table_(tableOf(material, low, high)) {}
-
-std::string VolumeScene::name() const {
-    const auto p = std::to_string(options_.pixels);
-    return volume_ + " " + p + "x" + p + nameOf(material_);
+std::string benchVolumeName(const VolumeBenchOptions& options, int samples) {
+    return std::to_string(samples) + "^3 " + scalarName(options.type);
 }
+
+std::string sceneName(const VolumeBenchOptions& options, const std::string& volume, const std::string& look) {
+    const auto p = std::to_string(options.pixels);
+    return volume + " " + p + "x" + p + " " + look;
+}
+
+VolumeScene::VolumeScene(const VolumeBenchOptions& options, std::string volume,
+                         std::shared_ptr<const fields::SampledField> sampled, VolumeLook look)
+    : options_(options), volume_(std::move(volume)), sampled_(std::move(sampled)), look_(std::move(look)) {}
+
+std::string VolumeScene::name() const { return sceneName(options_, volume_, look_.name); }
 
 TileSpec VolumeScene::tile(Technique technique, int frame) const {
-    const auto& grid = sampled_.meta.grid;
-    auto tile = fields::tileOf(sampled_.meta.key, grid, technique, options_.pixels);
-    tile.transfer = table_;
+    const auto& grid = sampled_->meta.grid;
+    auto tile = fields::tileOf(sampled_->meta.key, grid, technique, options_.pixels);
+    tile.transfer = look_.table;
     tile.adaptiveSampling = options_.adaptive;
-    // The material keeps its looks at every size of the volume: opacities hold over 1/256 of its edge.
-    const auto edges = glm::dvec3(grid.dims) * spacingWorld(grid);
-    tile.unitLengthWorld = (edges.x + edges.y + edges.z) / 3.0 / 256.0;
+    tile.unitLengthWorld = look_.unitLengthWorld;
     tile.camera = fields::cameraOf(grid, Projection::Perspective, 30.0 + kDegreesPerFrame * frame, 25.0);
     return tile;
 }
@@ -73,11 +77,11 @@ const fields::Picture& VolumeScene::truth(Technique technique) {
     auto& picture = technique == Technique::Mip ? maximum_ : integral_;
     if (picture.pixels.empty()) {
         MemoryVolumeProvider provider;
-        provider.add(sampled_.meta, sampled_.arrays);
-        const fields::Interpolant interpolant(provider, {sampled_.meta.key, 0, 0, 0});
+        provider.add(sampled_->meta, sampled_->arrays);
+        const fields::Interpolant interpolant(provider, {sampled_->meta.key, 0, 0, 0});
         const auto view = tile(technique, 0);
         picture = fields::integrateConverged(
-            view, sampled_.meta.grid, interpolant.dims(),
+            view, sampled_->meta.grid, interpolant.dims(),
             [&](const glm::dvec3& texture) { return interpolant.at(texture); }, kTruthStepVoxels,
             truthStride(options_));
     }
@@ -209,11 +213,16 @@ std::string jsonOf(const VolumeBenchCase& one) {
 
 std::string volumeBench(const VolumeBenchOptions& options,
                         const std::function<void(const std::string&)>& progress) {
-    VolumeScene sparse(options, Material::Sparse);
-    VolumeScene filled(options, Material::Filled);
-    VolumeScene peaks(options, Material::SharpPeaks);
+    const auto volume = benchVolume(options, options.samples);
+    const auto sceneOf = [&](Material material) {
+        return VolumeScene(options, benchVolumeName(options, options.samples), volume,
+                           benchLook(material, options.samples));
+    };
+    auto sparse = sceneOf(Material::Sparse);
+    auto filled = sceneOf(Material::Filled);
+    auto peaks = sceneOf(Material::SharpPeaks);
     auto provider = std::make_shared<MemoryVolumeProvider>();
-    provider->add(sparse.sampled().meta, sparse.sampled().arrays);
+    provider->add(volume->meta, volume->arrays);
     RenderOptions renderOptions;
     renderOptions.device = options.device;
     RenderThread thread(provider, renderOptions);

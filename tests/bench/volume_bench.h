@@ -26,8 +26,9 @@ struct VolumeBenchOptions {
     std::vector<std::string> techniques;
     bool adaptive = true;      ///< sampling, as the style key sampling.adaptive
     std::string only;          ///< of those, the cases whose name has this text in it
+    bool large = false;        ///< against VTK: volumes of 512^3, u8 and u16, at 1024 x 1024, too
+    std::string scans;         ///< against VTK: a folder of real scans, drawn instead; empty: none
     int cellSamples = 128;     ///< per axis of each of 25 cells, at most `samples`
-    std::string scans;         ///< a folder of real scans, drawn instead of the analytic volumes; empty: none
     bool samplesGiven = false; ///< else that bench takes 128 and 256 samples
 };
 
@@ -43,15 +44,35 @@ struct VolumeBenchCase {
 
 enum class Material { Sparse, Filled, SharpPeaks };
 
-/// A scene that is drawn by turns: the volume, its table and the view of a frame.
+/// How a volume is shown.
+struct VolumeLook {
+    std::string name; ///< "filled"
+    std::shared_ptr<const TransferTable> table;
+    double unitLengthWorld = 1.0; ///< of the table's opacities
+};
+
+/// The analytic volume of the benches, under the key "bench".
+[[nodiscard]] std::shared_ptr<const fields::SampledField> benchVolume(const VolumeBenchOptions& options,
+                                                                      int samples);
+/// The material over the values from low to high. It keeps its looks at every size of the volume: opacities
+/// hold over 1/256 of the grid's edge.
+[[nodiscard]] VolumeLook lookOf(Material material, double low, double high, const Grid& grid);
+/// Of benchVolume.
+[[nodiscard]] VolumeLook benchLook(Material material, int samples);
+/// "256^3 u8", for benchVolume.
+[[nodiscard]] std::string benchVolumeName(const VolumeBenchOptions& options, int samples);
+/// "VOLUME 512x512 LOOK"
+[[nodiscard]] std::string sceneName(const VolumeBenchOptions& options, const std::string& volume,
+                                    const std::string& look);
+
+/// A scene that is drawn by turns: a volume of one field, its look and the view of a frame.
 class VolumeScene {
 public:
-    VolumeScene(const VolumeBenchOptions& options, Material material);
-    /// A given volume, with the material over the values from low to high.
-    VolumeScene(const VolumeBenchOptions& options, Material material, std::string volume,
-                fields::SampledField sampled, double low, double high);
+    /// \param volume  its name: "256^3 u8"
+    VolumeScene(const VolumeBenchOptions& options, std::string volume,
+                std::shared_ptr<const fields::SampledField> sampled, VolumeLook look);
 
-    [[nodiscard]] const fields::SampledField& sampled() const { return sampled_; }
+    [[nodiscard]] const fields::SampledField& sampled() const { return *sampled_; }
     [[nodiscard]] TileSpec tile(Technique technique, int frame) const;
     /// The converged picture of frame 0, of about 64 x 64 of its pixels. Maximum projection has its own.
     [[nodiscard]] const fields::Picture& truth(Technique technique);
@@ -60,10 +81,9 @@ public:
 
 private:
     VolumeBenchOptions options_;
-    Material material_;
-    std::string volume_; ///< its name
-    fields::SampledField sampled_;
-    std::shared_ptr<const TransferTable> table_;
+    std::string volume_;
+    std::shared_ptr<const fields::SampledField> sampled_;
+    VolumeLook look_;
     fields::Picture integral_;
     fields::Picture maximum_;
 };
