@@ -1,4 +1,4 @@
-// Opaque solids that stand in the picture (techniques/overlay/crystal_overlay.h): nothing behind them is seen. Needs
+// Opaque solids that stand in the picture (techniques/overlay/solids_overlay.h): nothing behind them is seen. Needs
 // kept_span.glsl.
 //   SOLIDS  1: there are some
 

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace voxsheet {
@@ -59,6 +60,7 @@ struct TileSpec {
     IsosurfaceSpec isosurface;                    ///< Isosurface only
     LayersSpec layers;                            ///< Raycast and Plane only
     CrystalSpec crystal;                          ///< of the cell's own dataset
+    std::optional<glm::dvec3> crosshairWorld;     ///< lines through it along the world's axes; not for Plane
     PlaneSpec plane;                              ///< Plane only, which needs an orthographic camera
     FloatTexels floatTexels = FloatTexels::Full;
     /// The values are numbers of categories: nothing lies between two of them, so every technique takes the

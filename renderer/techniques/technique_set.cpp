@@ -5,7 +5,7 @@
 #include "stages/shared_stages.h"
 #include "techniques/isosurface/isosurface.h"
 #include "techniques/mip/mip.h"
-#include "techniques/overlay/crystal_overlay.h"
+#include "techniques/overlay/solids_overlay.h"
 #include "techniques/plane/plane.h"
 #include "techniques/raycast/raycast.h"
 #include "techniques/slicing/slicing.h"
@@ -76,12 +76,12 @@ void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
 class TechniqueSet::Implementation {
 public:
     explicit Implementation(gpu::Context& context)
-        : stages(context), slicing(context), surface(context), crystal(context) {}
+        : stages(context), slicing(context), surface(context), solids(context) {}
 
     SharedStages stages;
     SlicingTechnique slicing;
     SurfaceTechnique surface;
-    CrystalOverlay crystal;
+    SolidsOverlay solids;
 
     void draw(const DrawRequest& request) {
 #if VOXSHEET_SIMD
@@ -167,9 +167,9 @@ void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
     auto& stages = implementation_->stages;
     withRequest(tile, tileVolumes, &targetRgba32f, rows,
                 [&](DrawVolumes& volumes, const DrawRequest& request) {
-                    volumes.solids = implementation_->crystal.draw(stages, request);
+                    volumes.solids = implementation_->solids.draw(stages, request);
                     implementation_->draw(request);
-                    if (volumes.solids != nullptr) implementation_->crystal.drawUnder(stages, request);
+                    if (volumes.solids != nullptr) implementation_->solids.drawUnder(stages, request);
                 });
     stages.context.checkErrors("drawing a tile");
 }
@@ -178,8 +178,7 @@ bool TechniqueSet::drawsOnHost([[maybe_unused]] const TileSpec& tile,
                                [[maybe_unused]] const TileVolumes& volumes) const {
 #if VOXSHEET_SIMD
     const ResidentVolume& volume = volumes.volume.volume();
-    const bool hasSolids = !tile.crystal.empty() && volume.meta->crystal;
-    return volume.host && !hasSolids;
+    return volume.host && !showsSolids(tile, *volume.meta);
 #else
     return false;
 #endif

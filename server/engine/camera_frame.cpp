@@ -1,6 +1,6 @@
 #include "engine/camera_frame.h"
 
-#include "engine/box_extent.h"
+#include "volume/box_extent.h"
 
 #include <algorithm>
 

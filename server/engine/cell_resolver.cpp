@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "engine/axis_ticks.h"
 #include "engine/clip_resolver.h"
+#include "engine/crosshair.h"
 #include "engine/crystal_resolver.h"
 #include "engine/lattice_planes.h"
 #include "engine/plane_resolver.h"
@@ -313,6 +314,7 @@ TileSpec resolveTile(const sheet::TypedStyle& style, const DatasetMeta& meta, co
     const bool flat = style.technique == sheet::Technique::Plane;
     const CameraFrame frame = linked.value_or(ownFrame(drawn));
     const sheet::PlaneStyle plane = flat ? withLatticeNormal(style.plane, meta) : style.plane;
+    if (!flat) spec.crosshairWorld = crosshairWorld(style.plane, drawn);
     spec.camera = flat ? resolvePlaneCamera(plane, style.camera, drawn, meta.anatomical, sizePixels, frame)
                        : resolveCamera(style.camera, frame, sizePixels);
     spec.transfer = std::move(table);

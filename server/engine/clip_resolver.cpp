@@ -1,8 +1,8 @@
 #include "engine/clip_resolver.h"
 
 #include "base/errors.h"
-#include "engine/box_extent.h"
 #include "engine/unit_vector.h"
+#include "volume/box_extent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "engine/crosshair.h"
 
-#include "engine/box_extent.h"
+#include "volume/box_extent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -111,6 +111,9 @@ struct TileQuality {
     /// For a page, where the style key `level` counts wherever it is set. Otherwise only the view's `request`
     /// may set it: exports are at full level unless they ask for another one themselves.
     bool live = false;
+    /// Pictures of volumes have the crosshair of linked planes in them, at its depth, where `annotations` is
+    /// "all". Otherwise they are bare. On planes, pages and sheets draw it over the picture.
+    bool crosshair = false;
 };
 
 /// One cell made ready to draw: everything that decides its pixels, and the identity of those pixels.

@@ -1,8 +1,8 @@
 #include "engine/plane_resolver.h"
 
-#include "engine/box_extent.h"
 #include "engine/crosshair.h"
 #include "engine/unit_vector.h"
+#include "volume/box_extent.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,6 +15,7 @@ namespace voxsheet::engine {
 namespace {
 
 /// As on the page.
+constexpr float kHiddenStrength = 0.35F; // of the crosshair's lines within a volume
 constexpr glm::vec4 kCrosshairEdge{0.0F, 0.0F, 0.0F, 0.4F};
 constexpr glm::vec4 kCrosshairColour{1.0F, 0.84F, 0.2F, 0.75F};
 
@@ -163,6 +164,7 @@ private:
             DrawnCell& cell = cells_[i];
             TileQuality quality;
             quality.sizePixels = layout_.pictures[i].size();
+            quality.crosshair = cell.annotations == sheet::Annotations::All;
             cell.tile = sources_.tiles.prepare(workbook_, sheetIndex_, cell.address, request_.view, quality,
                                                contents_);
             if (cell.tile.spec) {
@@ -273,7 +275,10 @@ private:
         const auto crosshair = crosshairWorld(cell.look->resolved.style.plane, drawn);
         if (!crosshair) return;
         const auto lines = crosshairLines(*cell.tile.spec, drawn, *crosshair);
-        const auto draw = [&](const glm::vec4& colour, double widthPixels) {
+        // Before and beside a volume, the picture itself has it: its lines shine through what hides them.
+        const float strength = cell.tile.spec->technique == Technique::Plane ? 1.0F : kHiddenStrength;
+        const auto draw = [&](glm::vec4 colour, double widthPixels) {
+            colour.w *= strength;
             for (const PixelLine& line : lines)
                 canvas.line(glm::dvec2(area.low) + line.from, glm::dvec2(area.low) + line.to, area, colour,
                             widthPixels);

@@ -217,6 +217,11 @@ std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
         collector.add(tile.sampleDistanceVoxels);
     }
     addCrystal(collector, tile.crystal);
+    const bool crosshair = tile.crosshairWorld.has_value() && tile.technique != Technique::Plane;
+    collector.add(crosshair ? 1.0 : 0.0);
+    if (crosshair)
+        for (int axis = 0; axis < 3; ++axis)
+            collector.add((*tile.crosshairWorld)[axis]);
     addShading(collector, tile);
     collector.add(tile.categories ? 1.0 : 0.0);
     collector.add(preIntegrates(tile) ? 1.0 : 0.0);

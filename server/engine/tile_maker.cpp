@@ -356,6 +356,7 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
     const sheet::TypedStyle& style = look.resolved.style;
     TileSpec spec = resolveTile(style, *look.meta, look.shown, tableOf(look.labels, look.transfer),
                                 quality.sizePixels, quality.level, quality.sampleDistanceFactor, look.frame);
+    if (!quality.crosshair || style.annotations != sheet::Annotations::All) spec.crosshairWorld.reset();
     if (look.labels) {
         spec.categories = true;
         spec.shading.enabled = false;

@@ -92,6 +92,7 @@ void FramePlanner::prepareVisible(const sheet::Workbook& workbook, const ClientV
         engine::TileQuality full;
         full.sizePixels = tile.sizePixels;
         full.live = true;
+        full.crosshair = true;
         auto prepared = engine_.prepareTile(workbook, sheet_, tile.cell, view.overrides, full);
         if (prepared.spec) {
             visible_.push_back({tile, std::move(prepared), nullptr});
@@ -182,6 +183,7 @@ void FramePlanner::addNeighbours(const sheet::Workbook& workbook, const ClientVi
         engine::TileQuality quality;
         quality.level = level;
         quality.live = true;
+        quality.crosshair = true;
         const auto prepared = engine_.prepareTile(workbook, sheet_, cell, view.overrides, quality);
         if (!prepared.spec) continue;
         const auto each = engine::volumesOf(*prepared.spec, WantedPriority::Soon);
@@ -206,6 +208,7 @@ void FramePlanner::reduceQuality(const sheet::Workbook& workbook, const ClientVi
     plan.step = quality_.choose(plan.pixels);
     engine::TileQuality reduced;
     reduced.live = true;
+    reduced.crosshair = true;
     reduced.sampleDistanceFactor = kQualitySteps[plan.step].sampleDistanceFactor;
     std::erase_if(plan.tiles, [&](PlannedTile& tile) {
         if (tile.image) return false; // the final picture is at hand: nothing is faster

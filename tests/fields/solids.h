@@ -1,5 +1,5 @@
 // Atoms and bonds that stand in a picture, in double precision. Written from the definitions in
-// stages/crystal_spec.h and techniques/overlay/crystal_overlay.h; shares no code with the shaders.
+// stages/crystal_spec.h and techniques/overlay/solids_overlay.h; shares no code with the shaders.
 #pragma once
 
 #include "fields/rays.h"

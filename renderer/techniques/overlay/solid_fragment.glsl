@@ -1,4 +1,4 @@
-// Where a pixel's ray meets a solid (techniques/overlay/crystal_overlay.h).
+// Where a pixel's ray meets a solid (techniques/overlay/solids_overlay.h).
 //   FLAT_CUT  1: where a plane passes through it
 #include "techniques/overlay/kept_point.glsl"
 #include "stages/light.glsl"
@@ -16,6 +16,8 @@ uniform vec4 cutPlane; // dot(xyz, p) = w
 
 const float kMiss = 1e30;
 const float kParallel = 1e-10;
+const float kEdgeCosine = 0.7; // its outer thirds
+const float kEdgeShade = 0.25;
 
 struct ViewRay {
     vec3 origin; // at the depth of the box's centre
@@ -76,6 +78,14 @@ float partAlong(vec3 point) {
     return square > 0.0 ? clamp(dot(point - capsuleStart.xyz, axis) / square, 0.0, 1.0) : 0.0;
 }
 
+// Cosine of the angle between a line's surface and the eye, seen along the line: 1 in its middle, 0 at its edges,
+// however it slants.
+float acrossLine(vec3 outwards, vec3 toEye) {
+    vec3 alongAway = capsuleEnd.xyz - capsuleStart.xyz;
+    vec3 along = normalize(vec3(alongAway.xy, -alongAway.z));
+    return dot(normalize(outwards), normalize(toEye - dot(toEye, along) * along));
+}
+
 void main() {
     ViewRay ray = viewRay(gl_FragCoord.xy * pictureOfPixel.xy + pictureOfPixel.zw);
     float radius = capsuleStart.w;
@@ -96,10 +106,14 @@ void main() {
     if (!(nearness <= 1.0)) discard;
     gl_FragDepth = (line ? 0.0 : 0.5) + 0.25 * nearness;
 #else
-    if (line && !isKept(transpose(viewFromSolid) * (point - vec3(centreInView, 0.0)), 0.0)) discard;
+    bool crosshair = capsuleEnd.w > 1.5;
+    if (line && !crosshair && !isKept(transpose(viewFromSolid) * (point - vec3(centreInView, 0.0)), 0.0)) discard;
     vec2 q = gl_FragCoord.xy * pictureOfPixel.xy + pictureOfPixel.zw;
     vec3 toEye = normalize(vec3(-rayLengthPerspective * q, 1.0));
-    if (!line) rgb = lit(rgb, vec3(normal.xy, -normal.z), toEye);
+    vec3 outwards = vec3(normal.xy, -normal.z);
+    if (!line) rgb = lit(rgb, outwards, toEye);
+    // Dark edges, so that it is seen before bright volumes, too.
+    if (crosshair && acrossLine(outwards, toEye) < kEdgeCosine) rgb *= kEdgeShade;
     gl_FragDepth = clamp(0.5 + depth / 16.0, 0.0, 1.0);
 #endif
     solid = vec4(rgb, depth);

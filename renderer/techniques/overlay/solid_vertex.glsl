@@ -1,4 +1,4 @@
-// Rectangles that cover solids in the picture (techniques/overlay/crystal_overlay.h).
+// Rectangles that cover solids in the picture (techniques/overlay/solids_overlay.h).
 #include "techniques/overlay/kept_point.glsl"
 
 struct Solid { // techniques/overlay/crystal_solids.h
@@ -16,7 +16,7 @@ uniform float lineRadius;
 
 // In the view: x right, y up, z away from the eye, from the depth of the box's centre on, bounding radii.
 flat out vec4 capsuleStart; // w: radius
-flat out vec4 capsuleEnd;   // w: 1 for lines
+flat out vec4 capsuleEnd;   // w: 1 for lines, 2 for those of the crosshair
 flat out vec3 startColour;
 flat out vec3 endColour;
 
@@ -61,7 +61,7 @@ vec2 cornerOver(Bounds a, Bounds b, vec2 side) {
 
 void main() {
     Solid solid = solids[gl_InstanceID];
-    float radius = solid.end.w > 0.5 ? lineRadius : solid.start.w;
+    float radius = solid.end.w > 0.5 ? solid.end.w * lineRadius : solid.start.w;
     capsuleStart = vec4(viewFromSolid * solid.start.xyz + vec3(centreInView, 0.0), radius);
     capsuleEnd = vec4(viewFromSolid * solid.end.xyz + vec3(centreInView, 0.0), solid.end.w);
     startColour = solid.startColour.rgb;

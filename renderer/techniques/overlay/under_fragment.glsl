@@ -1,4 +1,4 @@
-// Colours of solids, opaque, for blending under a picture (techniques/overlay/crystal_overlay.h).
+// Colours of solids, opaque, for blending under a picture (techniques/overlay/solids_overlay.h).
 layout(binding = 16) uniform sampler2D solids;
 
 layout(location = 0) out vec4 colour;

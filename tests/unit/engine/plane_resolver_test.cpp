@@ -1,9 +1,9 @@
 #include "engine/plane_resolver.h"
 
-#include "engine/box_extent.h"
 #include "engine/cell_resolver.h"
 #include "engine/kept_ray.h"
 #include "memory_dataset.h"
+#include "volume/box_extent.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The crosshair on a cell's picture: across a plane, or along the world's axes through a volume. Drawn from the camera and
-// never waiting for a picture.
+// never waiting for a picture. Pictures of volumes have it at its depth; here it faintly shines through what hides it.
 import type { CellState, StyleValue } from "../api/types";
 import { crosshairAxes, crosshairPoint, unitsOf } from "../model/crosshair";
 import { cameraOf } from "../model/look";
@@ -56,7 +56,7 @@ function PlacedCrosshair({ cell: name }: { cell: string }) {
     const view = cell && point && annotations === "all" && size.width > 0 ? cellPictureView(cell, camera, size.width, size.height) : null;
     const lines = view && point ? linesOf(cell, view, point) : [];
     return (
-        <svg ref={svg} class="crosshair" aria-hidden="true" data-crosshair={lines.length > 0 ? name : undefined}>
+        <svg ref={svg} class={cell && isPlane(cell) ? "crosshair" : "crosshair through"} aria-hidden="true" data-crosshair={lines.length > 0 ? name : undefined}>
             {["edge", "line"].map((part) =>
                 lines.map(([from, to], i) => <line key={`${part}${i}`} class={part} x1={from.x} y1={from.y} x2={to.x} y2={to.y} />),
             )}

@@ -1,9 +1,9 @@
-#include "engine/box_extent.h"
+#include "volume/box_extent.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace voxsheet::engine {
+namespace voxsheet {
 
 namespace {
 
@@ -27,4 +27,4 @@ Extent extentAlong(const glm::dvec3& directionWorld, const Grid& grid) {
     return extent;
 }
 
-} // namespace voxsheet::engine
+} // namespace voxsheet

@@ -1,6 +1,7 @@
-#include "techniques/overlay/crystal_overlay.h"
+#include "techniques/overlay/solids_overlay.h"
 
 #include "gpu/context.h"
+#include "techniques/overlay/crosshair_solids.h"
 #include "techniques/overlay/crystal_solids.h"
 
 #include <algorithm>
@@ -34,11 +35,24 @@ glm::dmat3 awayFromEye(const TileSpec& tile) {
     return turned * glm::dmat3(tile.camera.viewFromWorld);
 }
 
+bool showsCrystal(const TileSpec& tile, const DatasetMeta& meta) {
+    return !tile.crystal.empty() && meta.crystal.has_value();
+}
+
+bool showsCrystal(const DrawRequest& request) {
+    return showsCrystal(request.tile, *request.volumes.volume.meta);
+}
+
+bool showsCrosshair(const TileSpec& tile) {
+    return tile.crosshairWorld.has_value() && tile.technique != Technique::Plane;
+}
+
 gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const bool flat = tile.technique == Technique::Plane;
-    const auto* object = flat ? nullptr : volumes.clipObject;
-    auto defines = ClipStage::defines(flat ? ClipSpec{} : tile.clip, object, stages.filterFloatsInShader);
+    const bool clipped = !flat && showsCrystal(request);
+    const auto* object = clipped ? volumes.clipObject : nullptr;
+    auto defines = ClipStage::defines(clipped ? tile.clip : ClipSpec{}, object, stages.filterFloatsInShader);
     defines.emplace_back("SHADING", "1");
     defines.emplace_back("LIGHTS", std::to_string(tile.shading.lightsView.size()));
     defines.emplace_back("FLAT_CUT", flat ? "1" : "0");
@@ -47,21 +61,33 @@ gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& requ
 
 } // namespace
 
-const CrystalOverlay::Solids& CrystalOverlay::solidsOf(const DrawRequest& request) {
+bool showsSolids(const TileSpec& tile, const DatasetMeta& meta) {
+    return showsCrystal(tile, meta) || showsCrosshair(tile);
+}
+
+const SolidsOverlay::Solids& SolidsOverlay::solidsOf(const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const bool flat = tile.technique == Technique::Plane;
-    Key key{tile.dataset, tile.crystal, tile.periodic, flat,
+    Key key{tile.dataset,
+            tile.crystal,
+            flat ? std::nullopt : tile.crosshairWorld,
+            tile.periodic,
+            flat,
             flat ? glm::dvec4(tile.plane.normal, tile.plane.offset) : glm::dvec4(0.0)};
     if (const auto* known = crystals_.find([&](const Key& other) { return other == key; })) return *known;
     const auto& meta = *volumes.volume.meta;
-    const auto solids = crystalSolids(*meta.crystal, meta.grid, tile);
+    auto solids = crosshairSolids(meta.grid, tile);
+    if (showsCrystal(request)) {
+        const auto ofCrystal = crystalSolids(*meta.crystal, meta.grid, tile);
+        solids.insert(solids.end(), ofCrystal.begin(), ofCrystal.end());
+    }
     Solids made;
     made.count = static_cast<int>(solids.size());
     if (made.count > 0) made.buffer.emplace(context_, solids.size() * sizeof(Solid), 0, solids.data());
     return crystals_.insert(std::move(key), std::move(made));
 }
 
-void CrystalOverlay::prepareTextures(glm::ivec2 sizePixels) {
+void SolidsOverlay::prepareTextures(glm::ivec2 sizePixels) {
     const glm::ivec3 size(sizePixels, 1);
     if (!layout_) layout_.emplace(context_);
     if (colours_ && colours_->size() == size) return;
@@ -71,14 +97,16 @@ void CrystalOverlay::prepareTextures(glm::ivec2 sizePixels) {
     depth_.emplace(context_, GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, size);
 }
 
-void CrystalOverlay::bind(const gpu::Program& program, const DrawRequest& request) const {
+void SolidsOverlay::bind(const gpu::Program& program, const DrawRequest& request) const {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& grid = volumes.volume.meta->grid;
     const auto placed = placedGrid(grid, tile.periodic);
     const auto centre = centreWorld(drawnGrid(grid, tile.periodic));
     const double radius = frame.radiusWorld;
     setRayUniforms(program, frame, tile.sizePixels);
-    ClipStage::bind(program, tile, placed, tile.technique == Technique::Plane ? nullptr : volumes.clipObject);
+    ClipStage::bind(program, tile, placed,
+                    tile.technique == Technique::Plane || !showsCrystal(request) ? nullptr
+                                                                                 : volumes.clipObject);
     ShadingStage::bindLight(program, tile.shading);
 
     glm::dmat4 worldFromSolid(radius);
@@ -104,9 +132,9 @@ void CrystalOverlay::bind(const gpu::Program& program, const DrawRequest& reques
     program.set("cutPlane", glm::vec4(glm::dvec4(normal, offset)));
 }
 
-const gpu::Texture* CrystalOverlay::draw(SharedStages& stages, const DrawRequest& request) {
+const gpu::Texture* SolidsOverlay::draw(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
-    if (tile.crystal.empty() || !volumes.volume.meta->crystal) return nullptr;
+    if (!showsSolids(tile, *volumes.volume.meta)) return nullptr;
     const Solids& solids = solidsOf(request);
     if (solids.count == 0) return nullptr;
     prepareTextures(tile.sizePixels);
@@ -136,7 +164,7 @@ const gpu::Texture* CrystalOverlay::draw(SharedStages& stages, const DrawRequest
     return &*colours_;
 }
 
-void CrystalOverlay::drawUnder(SharedStages& stages, const DrawRequest& request) {
+void SolidsOverlay::drawUnder(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& program = stages.programs.graphics("techniques/overlay/picture_vertex.glsl",
                                                    "techniques/overlay/under_fragment.glsl", {});

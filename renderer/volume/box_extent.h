@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace voxsheet::engine {
+namespace voxsheet {
 
 /// Dot products of a direction with the box's first corner along it and with its last.
 struct Extent {
@@ -17,4 +17,4 @@ struct Extent {
 
 [[nodiscard]] Extent extentAlong(const glm::dvec3& directionWorld, const Grid& grid);
 
-} // namespace voxsheet::engine
+} // namespace voxsheet

@@ -1,4 +1,5 @@
-// Atoms, bonds and unit cells in the picture of a volume, opaque and at their depth with every technique.
+// Atoms, bonds, unit cells and the crosshair in the picture of a volume, opaque and at their depth with every
+// technique.
 //
 // Before the technique draws, the solids are rasterised: a rectangle around each, whose fragments meet it
 // exactly (ray casting of quadrics; Sigg et al., "GPU-Based Ray-Casting of Quadratic Surfaces", 2006), give a
@@ -8,7 +9,7 @@
 // Solids are lit by the picture's lights and material, also where the volume is not; lines are not. Clips:
 // an atom stays whole where its centre is kept, or lies less than a quarter of its radius beyond the cut, and
 // is gone otherwise, so that no sphere is cut open; a bond stays where both its atoms do; edges of cells are
-// cut where the volume is.
+// cut where the volume is; the crosshair never is.
 //
 // With Technique::Plane, which shows a cut, the solids are cut too: flat discs of the atoms and flat bands of
 // the bonds that the plane passes through, unlit, on the volume's values; and the outlines of the cells.
@@ -23,10 +24,13 @@
 
 namespace voxsheet {
 
-/// Keeps the solids of the last crystals and its textures from picture to picture.
-class CrystalOverlay {
+/// Whether the tile's picture of such a dataset has any: then it is drawn by the GL.
+[[nodiscard]] bool showsSolids(const TileSpec& tile, const DatasetMeta& meta);
+
+/// Keeps the solids of the last tiles and its textures from picture to picture.
+class SolidsOverlay {
 public:
-    explicit CrystalOverlay(gpu::Context& context) : context_(context), crystals_(kCrystals) {}
+    explicit SolidsOverlay(gpu::Context& context) : context_(context), crystals_(kCrystals) {}
 
     /// For DrawVolumes::solids; null: the tile shows none. The texture holds until the next draw. Throws as
     /// crystalSites.
@@ -39,6 +43,7 @@ private:
     struct Key {
         std::string dataset;
         CrystalSpec crystal;
+        std::optional<glm::dvec3> crosshair;
         PeriodicWindow periodic;
         bool flat;
         glm::dvec4 plane; ///< where `flat`
