@@ -58,6 +58,7 @@ public:
     Implementation& operator=(const Implementation&) = delete;
 
     [[nodiscard]] const RenderDevice& device() const { return device_; }
+    [[nodiscard]] const std::vector<PathChoice>& paths() const { return paths_; }
 
     [[nodiscard]] ResidencyState residency() const {
         const std::scoped_lock lock(stateMutex_);
@@ -106,6 +107,7 @@ private:
         try {
             startRenderer();
         } catch (...) {
+            renderer_.reset(); // on its own thread
             started.set_exception(std::current_exception());
             return;
         }
@@ -148,8 +150,15 @@ private:
 
     void startRenderer() {
         renderer_ = std::make_unique<TileRenderer>(volumes_, options_.device, options_.textureBudgetBytes);
+        if (paths_.empty()) paths_ = choosePaths();
+        renderer_->setPaths(pathsOf(paths_));
         renderer_->residency().setWanted(wanted_);
         publishState();
+    }
+
+    [[nodiscard]] std::vector<PathChoice> choosePaths() const {
+        if (options_.choosePaths) return options_.choosePaths(renderer_->device());
+        return voxsheet::choosePaths(pathsByRule(renderer_->workarounds()), {}, {});
     }
 
     void publishState() {
@@ -386,6 +395,7 @@ private:
     RenderOptions options_;
     RenderDevice device_;
     std::chrono::steady_clock::time_point published_; ///< when state_ was told last
+    std::vector<PathChoice> paths_;                   ///< settled before the constructor returns
     FrameQueue queue_;
     mutable std::mutex stateMutex_;
     ResidencyState state_;
@@ -410,6 +420,8 @@ RenderThread::RenderThread(std::shared_ptr<const VolumeProvider> volumes, const 
 RenderThread::~RenderThread() = default;
 
 const RenderDevice& RenderThread::device() const { return implementation_->device(); }
+
+const std::vector<PathChoice>& RenderThread::paths() const { return implementation_->paths(); }
 
 std::future<FrameResult> RenderThread::submit(FrameSpec frame, FramePriority priority,
                                               std::function<bool()> cancelled) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame/frame_spec.h"
+#include "frame/path_choice.h"
 #include "gpu/render_device.h"
 #include "residency/residency_state.h"
 #include "residency/wanted_volume.h"
@@ -21,6 +22,9 @@ struct RenderOptions {
     std::uint64_t textureBudgetBytes = 0; ///< 0 = a stated share of the device's memory (llvmpipe: of RAM)
     /// Called on the render thread when the budget first makes something go; must not block or throw.
     std::function<void()> onFirstEviction = {};
+    /// Asked once, when the device is known, on the render thread; what it throws, the constructor does.
+    /// Empty: by rule.
+    std::function<std::vector<PathChoice>(const RenderDevice& device)> choosePaths = {};
 };
 
 enum class FramePriority { Interactive, Final, Export };
@@ -41,6 +45,7 @@ public:
     RenderThread& operator=(const RenderThread&) = delete;
 
     [[nodiscard]] const RenderDevice& device() const;
+    [[nodiscard]] const std::vector<PathChoice>& paths() const; ///< of each technique
     /// `cancelled` is asked before each tile and while its volumes are brought in; when true, the future
     /// throws Cancelled.
     [[nodiscard]] std::future<FrameResult> submit(FrameSpec frame, FramePriority priority,

@@ -84,11 +84,12 @@ std::unique_ptr<ReadbackSlot> TileRenderer::takeSlot(std::size_t bytes) {
 }
 
 TileLevels TileRenderer::levelsFor(const TileSpec& tile, LevelChoice choice) const {
-    return choice == LevelChoice::Exact ? askedLevels(tile) : levelsWithinBudget(residency_, tile);
+    return choice == LevelChoice::Exact ? askedLevels(tile)
+                                        : levelsWithinBudget(residency_, tile, techniques_.paths());
 }
 
 bool TileRenderer::isResident(const TileSpec& tile, const TileLevels& levels) const {
-    return isTileResident(residency_, tile, levels);
+    return isTileResident(residency_, tile, techniques_.paths(), levels);
 }
 
 void TileRenderer::bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline) {

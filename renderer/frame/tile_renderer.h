@@ -54,6 +54,8 @@ public:
 
     [[nodiscard]] const RenderDevice& device() const { return device_; }
     [[nodiscard]] ResidencyManager& residency() { return residency_; }
+    [[nodiscard]] const gpu::Workarounds& workarounds() const { return context_.workarounds(); }
+    void setPaths(const RenderPaths& paths) { techniques_.setPaths(paths); } ///< before the first tile
 
     /// The levels to draw from. Throws as levelsWithinBudget.
     [[nodiscard]] TileLevels levelsFor(const TileSpec& tile, LevelChoice choice) const;

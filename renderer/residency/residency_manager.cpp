@@ -351,9 +351,7 @@ void ResidencyManager::forget(const std::string& dataset) {
     std::erase_if(queue_, [&](const auto& pending) { return pending->key().volume.dataset == dataset; });
 }
 
-TextureKind ResidencyManager::kindOf(TexelForm form) const {
-    return samplesKind(form.floats, form.forRays && workarounds().simdRays);
-}
+TextureKind ResidencyManager::kindOf(TexelForm form) const { return samplesKind(form.floats, form.onHost); }
 
 const gpu::Workarounds& ResidencyManager::workarounds() const { return context_.workarounds(); }
 

@@ -14,13 +14,11 @@ enum class WantedPriority { Recent, Soon, Visible };
 /// In which form a volume is held.
 struct TexelForm {
     FloatTexels floats = FloatTexels::Full;
-    /// Read by techniques that march rays: where the workaround "simd-rays" is in force, the texels are held
-    /// in host memory instead of a texture.
-    bool forRays = false;
+    bool onHost = false; ///< in host memory instead of a texture: for kernels (techniques/render_paths.h)
 
     TexelForm() = default;
-    TexelForm(FloatTexels floatTexels, bool readByRays = false) // NOLINT: a precision is a form
-        : floats(floatTexels), forRays(readByRays) {}
+    TexelForm(FloatTexels floatTexels, bool inHostMemory = false) // NOLINT: a precision is a form
+        : floats(floatTexels), onHost(inHostMemory) {}
     auto operator<=>(const TexelForm&) const = default;
 };
 

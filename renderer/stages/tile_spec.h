@@ -23,6 +23,25 @@ namespace voxsheet {
 
 enum class Technique { Slices, Raycast, Mip, Surface, Isosurface, Plane };
 
+/// As the style key `technique` names them: "raycast".
+[[nodiscard]] inline const char* techniqueName(Technique technique) {
+    switch (technique) {
+    case Technique::Slices:
+        return "slices";
+    case Technique::Raycast:
+        return "raycast";
+    case Technique::Mip:
+        return "mip";
+    case Technique::Surface:
+        return "surface";
+    case Technique::Plane:
+        return "plane";
+    case Technique::Isosurface:
+        break;
+    }
+    return "isosurface";
+}
+
 /// What the transfer function is asked for along a ray.
 enum class Classification {
     AtSamples,     ///< entries at the samples

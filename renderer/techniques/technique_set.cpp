@@ -76,12 +76,14 @@ void validateTarget(const TileSpec& tile, const gpu::Texture& target) {
 class TechniqueSet::Implementation {
 public:
     explicit Implementation(gpu::Context& context)
-        : stages(context), slicing(context), surface(context), solids(context) {}
+        : stages(context), slicing(context), surface(context), solids(context),
+          paths(pathsByRule(context.workarounds())) {}
 
     SharedStages stages;
     SlicingTechnique slicing;
     SurfaceTechnique surface;
     SolidsOverlay solids;
+    RenderPaths paths;
 
     void draw(const DrawRequest& request) {
 #if VOXSHEET_SIMD
@@ -152,13 +154,15 @@ TileVolumes TechniqueSet::acquire(ResidencyManager& residency, const TileSpec& t
 std::optional<TileVolumes> TechniqueSet::acquireBy(ResidencyManager& residency, const TileSpec& tile,
                                                    const TileLevels& levels, Deadline deadline) {
     validate(tile);
-    return acquireTileBy(residency, tile, levels, deadline, implementation_->gradientBuilder());
+    return acquireTileBy(residency, tile, implementation_->paths, levels, deadline,
+                         implementation_->gradientBuilder());
 }
 
 TileVolumes TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
                                         const TileLevels& levels) {
     validate(tile);
-    return acquireTileAtHand(residency, tile, levels, implementation_->gradientBuilder());
+    return acquireTileAtHand(residency, tile, implementation_->paths, levels,
+                             implementation_->gradientBuilder());
 }
 
 void TechniqueSet::draw(const TileSpec& tile, const TileVolumes& tileVolumes,
@@ -195,6 +199,9 @@ void TechniqueSet::drawOnHost(const TileSpec& tile, const TileVolumes& tileVolum
 #endif
                 });
 }
+
+void TechniqueSet::setPaths(const RenderPaths& paths) { implementation_->paths = paths; }
+const RenderPaths& TechniqueSet::paths() const { return implementation_->paths; }
 
 void TechniqueSet::setEmptySpaceSkipping(bool enabled) { implementation_->stages.skipEmptySpace = enabled; }
 void TechniqueSet::setShaderFiltering(bool enabled) {

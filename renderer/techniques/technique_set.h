@@ -4,6 +4,7 @@
 #include "residency/residency_manager.h"
 #include "stages/picture_rows.h"
 #include "stages/tile_spec.h"
+#include "techniques/render_paths.h"
 #include "techniques/tile_volumes.h"
 
 #include <memory>
@@ -52,6 +53,10 @@ public:
     /// where drawsOnHost(tile, volumes).
     void drawOnHost(const TileSpec& tile, const TileVolumes& volumes, std::vector<float>& rgba,
                     const PictureRows& rows = {});
+
+    /// What acquire brings in decides by which path draw draws; by the rule until set.
+    void setPaths(const RenderPaths& paths);
+    [[nodiscard]] const RenderPaths& paths() const;
 
     /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
     void setEmptySpaceSkipping(bool enabled);

@@ -23,32 +23,32 @@ struct Part {
     bool exactLevel = false;
 };
 
-Part drawnPart(const TileSpec& tile, int level) {
+Part drawnPart(const TileSpec& tile, const RenderPaths& paths, int level) {
     return {{tile.dataset, tile.field, tile.step, level},
-            {tile.floatTexels, marchesRays(tile)},
+            {tile.floatTexels, paths.onHost(tile)},
             SamplesUse::Drawing,
             tile.categories};
 }
 
-std::optional<Part> clipPart(const TileSpec& tile, int level) {
+std::optional<Part> clipPart(const TileSpec& tile, const RenderPaths& paths, int level) {
     if (!tile.clip.object || tile.technique == Technique::Plane) return std::nullopt;
     return Part{{tile.clip.object->dataset, 0, 0, level},
-                {FloatTexels::Full, marchesRays(tile)},
+                {FloatTexels::Full, paths.onHost(tile)},
                 SamplesUse::Clipping};
 }
 
-std::optional<Part> colourPart(const TileSpec& tile, int level) {
+std::optional<Part> colourPart(const TileSpec& tile, const RenderPaths& paths, int level) {
     if (tile.technique != Technique::Isosurface || !tile.isosurface.colouredBy) return std::nullopt;
     const auto& colours = *tile.isosurface.colouredBy;
     return Part{{colours.dataset, colours.field, colours.step, level},
-                {FloatTexels::Full, marchesRays(tile)},
+                {FloatTexels::Full, paths.onHost(tile)},
                 SamplesUse::Drawing};
 }
 
-Part layerPart(const TileSpec& tile, std::size_t i, int level) {
+Part layerPart(const TileSpec& tile, const RenderPaths& paths, std::size_t i, int level) {
     const auto& layer = tile.layers.volumes[i];
     return {{layer.dataset, layer.field, layer.step, level},
-            {layer.floatTexels, marchesRays(tile)},
+            {layer.floatTexels, paths.onHost(tile)},
             SamplesUse::Drawing,
             layer.categories};
 }
@@ -89,14 +89,14 @@ VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& a
 
 } // namespace
 
-bool wantsGradientTexture(const TileSpec& tile, const gpu::Workarounds& workarounds) {
+bool wantsGradientTexture(const TileSpec& tile, const RenderPaths& paths) {
     // Surfaces of cuts have their own normals; only caps and samples inside the volume need gradients.
     const bool usesGradients = tile.technique == Technique::Raycast ||
                                tile.technique == Technique::Isosurface || tile.technique == Technique::Slices;
     if (!usesGradients || !tile.shading.enabled || tile.shading.gradient != GradientSource::Texture)
         return false;
     // SimdRays takes them from the samples: as fast, and without the texture.
-    return !(workarounds.simdRays && marchesRays(tile));
+    return !paths.onHost(tile);
 }
 
 TileLevels askedLevels(const TileSpec& tile) {
@@ -108,7 +108,8 @@ TileLevels askedLevels(const TileSpec& tile) {
     return levels;
 }
 
-TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec& tile) {
+TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec& tile,
+                              const RenderPaths& paths) {
     TileLevels levels = askedLevels(tile);
     while (true) {
         std::vector<LevelBytes> parts;
@@ -121,12 +122,11 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
                 part->exactLevel ? part->key.level : residency.describe(part->key.dataset)->levels() - 1;
             parts.push_back({&level, coarsest, bytes});
         };
-        add(drawnPart(tile, levels.volume), levels.volume,
-            wantsGradientTexture(tile, residency.workarounds()));
-        add(clipPart(tile, levels.clipObject), levels.clipObject, false);
-        add(colourPart(tile, levels.colours), levels.colours, false);
+        add(drawnPart(tile, paths, levels.volume), levels.volume, wantsGradientTexture(tile, paths));
+        add(clipPart(tile, paths, levels.clipObject), levels.clipObject, false);
+        add(colourPart(tile, paths, levels.colours), levels.colours, false);
         for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
-            add(layerPart(tile, i, levels.layers.at(i)), levels.layers.at(i), false);
+            add(layerPart(tile, paths, i, levels.layers.at(i)), levels.layers.at(i), false);
         std::uint64_t sum = 0;
         for (const auto& part : parts)
             sum += part.bytes;
@@ -144,56 +144,56 @@ TileLevels levelsWithinBudget(const ResidencyManager& residency, const TileSpec&
     }
 }
 
-bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, const TileLevels& levels) {
+bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, const RenderPaths& paths,
+                    const TileLevels& levels) {
     const auto resident = [&](const std::optional<Part>& part) {
         return !part || residency.isResident(part->key, part->form);
     };
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
-        if (!resident(layerPart(tile, i, levels.layers.at(i)))) return false;
-    const Part drawn = drawnPart(tile, levels.volume);
-    return resident(drawn) && resident(clipPart(tile, levels.clipObject)) &&
-           resident(colourPart(tile, levels.colours)) &&
-           (!wantsGradientTexture(tile, residency.workarounds()) ||
-            residency.areGradientsResident(drawn.key, drawn.form));
+        if (!resident(layerPart(tile, paths, i, levels.layers.at(i)))) return false;
+    const Part drawn = drawnPart(tile, paths, levels.volume);
+    return resident(drawn) && resident(clipPart(tile, paths, levels.clipObject)) &&
+           resident(colourPart(tile, paths, levels.colours)) &&
+           (!wantsGradientTexture(tile, paths) || residency.areGradientsResident(drawn.key, drawn.form));
 }
 
 std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,
-                                         const TileLevels& levels, Deadline deadline,
-                                         const DerivedTextureBuilder& buildGradients) {
+                                         const RenderPaths& paths, const TileLevels& levels,
+                                         Deadline deadline, const DerivedTextureBuilder& buildGradients) {
     const auto acquire = [&](const Part& part) {
         return residency.acquireBy(deadline, part.key, part.form, part.use);
     };
-    const Part drawn = drawnPart(tile, levels.volume);
+    const Part drawn = drawnPart(tile, paths, levels.volume);
     auto volume = acquire(drawn);
     if (!volume) return std::nullopt;
     TileVolumes volumes{std::move(*volume), {}, {}, {}, {}, false, false};
-    if (wantsGradientTexture(tile, residency.workarounds())) {
+    if (wantsGradientTexture(tile, paths)) {
         volumes.gradients = residency.acquireGradientsBy(deadline, drawn.key, drawn.form, buildGradients);
         if (!volumes.gradients) return std::nullopt;
     }
-    if (const auto part = clipPart(tile, levels.clipObject)) {
+    if (const auto part = clipPart(tile, paths, levels.clipObject)) {
         volumes.clipObject = acquire(*part);
         if (!volumes.clipObject) return std::nullopt;
     }
-    if (const auto part = colourPart(tile, levels.colours)) {
+    if (const auto part = colourPart(tile, paths, levels.colours)) {
         volumes.colours = acquire(*part);
         if (!volumes.colours) return std::nullopt;
     }
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
-        auto layer = acquire(layerPart(tile, i, levels.layers.at(i)));
+        auto layer = acquire(layerPart(tile, paths, i, levels.layers.at(i)));
         if (!layer) return std::nullopt;
         volumes.layers.push_back(std::move(*layer));
     }
     return volumes;
 }
 
-TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile, const TileLevels& levels,
-                              const DerivedTextureBuilder& buildGradients) {
+TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile, const RenderPaths& paths,
+                              const TileLevels& levels, const DerivedTextureBuilder& buildGradients) {
     bool awaited = false;
-    const Part drawn = drawnPart(tile, levels.volume);
+    const Part drawn = drawnPart(tile, paths, levels.volume);
     TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, {}, false, false};
     volumes.standIn = volumes.volume.volume().level != levels.volume;
-    if (wantsGradientTexture(tile, residency.workarounds())) {
+    if (wantsGradientTexture(tile, paths)) {
         VolumeKey key = drawn.key;
         key.level = volumes.volume.volume().level;
         // Without them the shader takes six taps: slower, and at samples the same.
@@ -203,16 +203,17 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
             awaited = residency.requestGradients(drawn.key, drawn.form, buildGradients) || awaited;
         }
     }
-    if (const auto part = clipPart(tile, levels.clipObject)) {
+    if (const auto part = clipPart(tile, paths, levels.clipObject)) {
         volumes.clipObject = acquireAtHand(residency, *part, awaited);
         volumes.standIn = volumes.standIn || volumes.clipObject->volume().level != levels.clipObject;
     }
-    if (const auto part = colourPart(tile, levels.colours)) {
+    if (const auto part = colourPart(tile, paths, levels.colours)) {
         volumes.colours = acquireAtHand(residency, *part, awaited);
         volumes.standIn = volumes.standIn || volumes.colours->volume().level != levels.colours;
     }
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
-        volumes.layers.push_back(acquireAtHand(residency, layerPart(tile, i, levels.layers.at(i)), awaited));
+        volumes.layers.push_back(
+            acquireAtHand(residency, layerPart(tile, paths, i, levels.layers.at(i)), awaited));
         volumes.standIn = volumes.standIn || volumes.layers.back().volume().level != levels.layers.at(i);
     }
     volumes.awaited = awaited;

@@ -1,6 +1,7 @@
 #include "base/errors.h"
 #include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
+#include "cli/bench/calibrate_command.h"
 #include "cli/bench/edit_bench.h"
 #include "cli/bench/http_bench.h"
 #include "cli/bench/import_bench.h"
@@ -8,6 +9,7 @@
 #include "cli/bench/time_n_command.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/thread_arguments.h"
 
 #include <CLI/CLI.hpp>
 
@@ -139,6 +141,24 @@ Action addVolume(CLI::App& app) {
     });
 }
 
+Action addCalibrate(CLI::App& app) {
+    auto options = std::make_shared<bench::CalibrateOptions>();
+    auto forget = std::make_shared<bool>(false);
+    app.add_option("--dim", options->samples, "Samples per edge of the volume (128)")
+        ->check(CLI::Range(16, 1024));
+    app.add_option("--pixels", options->pixels, "Edge of the square picture (384)")
+        ->check(CLI::Range(16, 4096));
+    app.add_option("--frames", options->frames, "Frames per path, of which the median counts (15)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    app.add_flag("--forget", *forget, "Remove what is remembered of this device instead");
+    addThreadArgument(app);
+    app.footer("Example: voxsheet bench calibrate --json");
+    return withOutput(app, [options, forget] {
+        return *forget ? forgetCalibration(options->device) : runCalibration(*options);
+    });
+}
+
 } // namespace
 
 Action addBench(CLI::App& app) {
@@ -159,6 +179,8 @@ Action addBench(CLI::App& app) {
         &addImport);
     add("edit", "Time from an edit to the final pictures: one dirty cell against a whole dirty sheet",
         &addEdit);
+    add("calibrate", "Find the fastest path of each technique on this device, and remember it",
+        &addCalibrate);
     add("http", "Requests per second and their latency over loopback", &addHttp);
     add("time-n", "Rendering time over the number of datasets, with dynamic resolution or without",
         &addTimeN);

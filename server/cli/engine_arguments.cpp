@@ -87,6 +87,11 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
     addThreadArgument(app);
     app.add_option("--device", arguments.device, "EGL device to draw on (default: chosen; see GET /api/v1)")
         ->check(CLI::Range(-1, 1024));
+    app.add_option("--path", arguments.paths,
+                   "Draw a technique by this path, e.g. raycast=shader; repeatable (default: by rule, or as "
+                   "`voxsheet bench calibrate` found; see GET /api/v1)")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--columns", arguments.columns,
                    "Columns of the sheet (default: chosen by the number of files)")
         ->check(CLI::Range(1, 1024));
@@ -98,6 +103,8 @@ void addEngineArguments(CLI::App& app, EngineArguments& arguments) {
     addImportArguments(app, arguments.import);
 }
 
+fs::path calibrationFolder() { return cacheFolder() / "calibration"; }
+
 engine::EngineOptions engineOptions(const EngineArguments& arguments) {
     engine::EngineOptions options;
     options.storeDir = arguments.store.empty() ? cacheFolder() / "store" : fs::path(arguments.store);
@@ -108,6 +115,8 @@ engine::EngineOptions engineOptions(const EngineArguments& arguments) {
     options.textureBudgetBytes = parseBudget(arguments.textureBudget, "--texture-budget", std::nullopt);
     options.memoryBudgetBytes = parseBudget(arguments.memoryBudget, "--memory-budget", hostMemoryBytes());
     options.device = arguments.device;
+    options.calibrationDir = calibrationFolder();
+    options.paths = parseForcedPaths(arguments.paths);
     std::set<fs::path> roots;
     const auto addRoot = [&](const fs::path& folder) {
         if (roots.insert(folder.lexically_normal()).second)

@@ -25,6 +25,7 @@ struct EngineArguments {
     std::string textureBudget;
     std::string memoryBudget;
     int device = -1;
+    std::vector<std::string> paths; ///< TECHNIQUE=PATH each
     std::optional<int> columns;
     std::string layout;
     bool series = false;
@@ -34,8 +35,11 @@ struct EngineArguments {
 void addEngineArguments(CLI::App& app, EngineArguments& arguments);
 
 /// Default folders: $XDG_CACHE_HOME or ~/.cache, then voxsheet/{store,uploads}. Throws InvalidInput for bad
-/// sizes.
+/// sizes and paths.
 [[nodiscard]] engine::EngineOptions engineOptions(const EngineArguments& arguments);
+
+/// Where `bench calibrate` remembers its results, in the user's cache.
+[[nodiscard]] std::filesystem::path calibrationFolder();
 
 /// True for a JSON document with a "voxsheet" member (a raw file's sidecar has none). Throws NotFound,
 /// IoError.

@@ -23,7 +23,10 @@ void addThreadArgument(CLI::App& app) {
 
 int threadsAskedFor(const CLI::App& command) {
     const auto* option = command.get_option_no_throw(kOption);
-    return option != nullptr && option->count() > 0 ? option->as<int>() : 0;
+    if (option != nullptr && option->count() > 0) return option->as<int>();
+    for (const auto* further : command.get_subcommands())
+        if (const int asked = threadsAskedFor(*further)) return asked;
+    return 0;
 }
 
 struct ThreadLimit::Tasks {

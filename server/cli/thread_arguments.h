@@ -11,7 +11,8 @@ namespace voxsheet::cli {
 
 void addThreadArgument(CLI::App& app);
 
-/// What --threads says; 0 where the command has no such option or it was not given.
+/// What --threads says, of the command or a subcommand of it; 0 where there is no such option or it was not
+/// given.
 [[nodiscard]] int threadsAskedFor(const CLI::App& command);
 
 /// Settles threadCount() for the life of this object, and keeps TBB to it, too. Warns where more was asked

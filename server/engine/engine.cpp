@@ -296,6 +296,15 @@ const RenderDevice* Engine::device() const {
     return implementation_->thread ? &implementation_->thread->device() : nullptr;
 }
 
+const std::vector<PathChoice>& Engine::paths() const {
+    static const std::vector<PathChoice> none;
+    return implementation_->thread ? implementation_->thread->paths() : none;
+}
+
+std::vector<WantedVolume> Engine::volumesOf(const TileSpec& tile, WantedPriority priority) const {
+    return engine::volumesOf(tile, pathsOf(paths()), priority);
+}
+
 ResidencyState Engine::residency() const {
     return implementation_->thread ? implementation_->thread->residency() : ResidencyState{};
 }

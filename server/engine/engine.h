@@ -45,7 +45,9 @@ struct EngineOptions {
     std::filesystem::path
         workbookFile;                  ///< where saveWorkbook() writes when given no other path; may be empty
     std::filesystem::path recoveryDir; ///< where recovery files go; empty = uploadDir
-    bool render = true;                ///< false: no GL (info, tests): images throw Unsupported
+    std::filesystem::path calibrationDir; ///< what `bench calibrate` remembers; empty: nothing is looked up
+    ForcedPaths paths;                    ///< win over the rule and what was calibrated
+    bool render = true;                   ///< false: no GL (info, tests): images throw Unsupported
 };
 
 struct DatasetInfo {
@@ -282,8 +284,12 @@ public:
 
     // --- state ---
     [[nodiscard]] const RenderDevice* device() const; ///< null when options.render is false
-    [[nodiscard]] ResidencyState residency() const;   ///< textures
-    [[nodiscard]] HostCacheState hostCache() const;   ///< samples in host memory, and what was read from disk
+    /// By which code each technique is drawn, and why; empty when options.render is false.
+    [[nodiscard]] const std::vector<PathChoice>& paths() const;
+    /// Every volume that the tile reads, in the form that its path does.
+    [[nodiscard]] std::vector<WantedVolume> volumesOf(const TileSpec& tile, WantedPriority priority) const;
+    [[nodiscard]] ResidencyState residency() const; ///< textures
+    [[nodiscard]] HostCacheState hostCache() const; ///< samples in host memory, and what was read from disk
     [[nodiscard]] const EngineOptions& options() const;
     [[nodiscard]] std::uint64_t
     addListener(ChangeListener listener); ///< called from any thread; must not block

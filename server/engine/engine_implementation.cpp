@@ -5,6 +5,8 @@
 #include "engine/child_importer.h"
 #include "engine/colour_map.h"
 #include "engine/config_files.h"
+#include "engine/path_memory.h"
+#include "engine/shown_volumes.h"
 #include "engine/tile_identity.h"
 #include "sheet/dataset_names.h"
 #include "store/volume_store.h"
@@ -63,6 +65,10 @@ std::unique_ptr<RenderThread> renderThread(const EngineOptions& options,
     rendering.device = options.device;
     rendering.textureBudgetBytes = options.textureBudgetBytes;
     rendering.onFirstEviction = [volumes] { volumes->keepFromNowOn(); };
+    rendering.choosePaths = [&options](const RenderDevice& device) {
+        const auto rule = pathsByRule(gpu::workaroundsNamed(device.workarounds));
+        return choosePaths(rule, rememberedPaths(options.calibrationDir, device), options.paths);
+    };
     return std::make_unique<RenderThread>(volumes, rendering);
 }
 
@@ -74,6 +80,11 @@ std::string environmentOf(const RenderThread* thread) {
     for (const std::string& workaround : device.workarounds)
         text += "\n" + workaround;
     return text;
+}
+
+DeviceForms formsOf(const RenderThread* thread) {
+    if (thread == nullptr) return {};
+    return {gpu::workaroundsNamed(thread->device().workarounds), pathsOf(thread->paths())};
 }
 
 NamedVolumeSources namedVolumeSources(DatasetKeeper& datasets) {
@@ -96,8 +107,7 @@ Engine::Implementation::Implementation(EngineOptions given)
                [this](bool settled, const std::string& importId) { datasetsChanged(settled, importId); }),
       hostCache(makeHostCache(options, datasets.volumes())), thread(renderThread(options, hostCache)),
       tiles(*keys, ColourMapTable::embedded(), datasets.volumes(), namedVolumeSources(datasets),
-            {environmentOf(thread.get()),
-             thread ? gpu::workaroundsNamed(thread->device().workarounds) : gpu::Workarounds{}}),
+            {environmentOf(thread.get()), formsOf(thread.get())}),
       probes(*keys, datasets.volumes()),
       workbook(keys, options, [this](std::uint64_t version) { workbookChanged(version); }) {}
 

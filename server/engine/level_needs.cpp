@@ -29,22 +29,21 @@ double nearestDepthWorld(const Grid& grid, const CameraSpec& camera) {
 /// As the residency manager keys it: one volume in two forms takes the bytes of both.
 std::string volumeName(const std::string& dataset, int field, int step, TexelForm form) {
     return dataset + "/" + std::to_string(field) + "/" + std::to_string(step) +
-           (form.floats == FloatTexels::Half ? "h" : "") + (form.forRays ? "r" : "");
+           (form.floats == FloatTexels::Half ? "h" : "") + (form.onHost ? "r" : "");
 }
 
 std::vector<std::uint64_t> bytesPerLevel(const DatasetMeta& meta, int field, TexelForm form,
                                          const gpu::Workarounds& workarounds,
                                          std::uint64_t gradientTexelBytes) {
     const ScalarType type = meta.fields.at(static_cast<std::size_t>(field)).storedType;
-    const bool onHost = form.forRays && workarounds.simdRays;
     std::vector<std::uint64_t> bytes;
     for (int level = 0; level < meta.levels(); ++level) {
-        const TextureEncoding encoding = chooseTextureEncoding(levelType(type, level), 0.0, 1.0,
-                                                               onHost || !workarounds.r8AsR16, form.floats);
+        const TextureEncoding encoding = chooseTextureEncoding(
+            levelType(type, level), 0.0, 1.0, form.onHost || !workarounds.r8AsR16, form.floats);
         const auto dims = levelDims(meta.grid.dims, level);
         const auto texels = static_cast<std::uint64_t>(sampleCount(dims));
-        const std::uint64_t samples =
-            onHost ? HostTexels::bytesFor(encoding.format, dims) : texels * texelFormatBytes(encoding.format);
+        const std::uint64_t samples = form.onHost ? HostTexels::bytesFor(encoding.format, dims)
+                                                  : texels * texelFormatBytes(encoding.format);
         bytes.push_back(samples + texels * gradientTexelBytes);
     }
     return bytes;
@@ -65,10 +64,10 @@ double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 si
 }
 
 LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet::TypedStyle& style,
-                      const gpu::Workarounds& workarounds) {
+                      const DeviceForms& device) {
     LevelNeeds needs;
-    const bool gradients = wantsGradientTexture(tile, workarounds);
-    const TexelForm form(tile.floatTexels, marchesRays(tile));
+    const bool gradients = wantsGradientTexture(tile, device.paths);
+    const TexelForm form(tile.floatTexels, device.paths.onHost(tile));
     needs.volume = volumeName(tile.dataset, tile.field, tile.step, form) + (gradients ? "g" : "");
     needs.work = std::to_string(static_cast<int>(tile.technique)) + (tile.shading.enabled ? "s" : "") +
                  (gradients ? "g" : "") + std::string(tile.layers.volumes.size(), 'l') + " " +
@@ -78,7 +77,7 @@ LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta, const sheet
     needs.finest = static_cast<int>(style.quality);
     needs.pinned = style.level;
     needs.textureBytes =
-        bytesPerLevel(meta, tile.field, form, workarounds, gradients ? kGradientTexelBytes : 0);
+        bytesPerLevel(meta, tile.field, form, device.workarounds, gradients ? kGradientTexelBytes : 0);
     return needs;
 }
 
@@ -87,8 +86,8 @@ FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, TexelF
     return {volumeName(meta.key, field, step, form), bytesPerLevel(meta, field, form, workarounds, 0)};
 }
 
-FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool forRays, const gpu::Workarounds& workarounds) {
-    FurtherVolume object = furtherVolume(meta, 0, 0, {FloatTexels::Full, forRays}, workarounds);
+FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool onHost, const gpu::Workarounds& workarounds) {
+    FurtherVolume object = furtherVolume(meta, 0, 0, {FloatTexels::Full, onHost}, workarounds);
     object.textureBytes.resize(1);
     return object;
 }

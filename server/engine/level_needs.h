@@ -6,6 +6,7 @@
 #include "resolution/level_policy.h"
 #include "sheet/typed_style.h"
 #include "stages/tile_spec.h"
+#include "techniques/render_paths.h"
 #include "volume/dataset.h"
 
 #include <cstdint>
@@ -14,6 +15,12 @@
 #include <vector>
 
 namespace voxsheet::engine {
+
+/// What decides the form in which a device holds volumes.
+struct DeviceForms {
+    gpu::Workarounds workarounds;
+    RenderPaths paths;
+};
 
 struct LevelNeeds {
     std::string volume; ///< dataset, field and step, and how they are kept: cells with equal ones share
@@ -33,16 +40,16 @@ struct LevelNeeds {
 [[nodiscard]] double texelEdgePixels(const Grid& grid, const CameraSpec& camera, glm::ivec2 sizePixels);
 
 /// All but `further`.
-/// \param workarounds  of the device: they decide the form in which volumes are held
+/// \param device  its workarounds and paths decide the form in which volumes are held
 [[nodiscard]] LevelNeeds levelNeeds(const TileSpec& tile, const DatasetMeta& meta,
-                                    const sheet::TypedStyle& style, const gpu::Workarounds& workarounds);
+                                    const sheet::TypedStyle& style, const DeviceForms& device);
 
 /// One volume as textures hold it, for LevelNeeds::further.
 [[nodiscard]] FurtherVolume furtherVolume(const DatasetMeta& meta, int field, int step, TexelForm form,
                                           const gpu::Workarounds& workarounds);
 
 /// A clip object's distances, likewise: at level 0 whatever the level of the picture.
-[[nodiscard]] FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool forRays,
+[[nodiscard]] FurtherVolume clipObjectVolume(const DatasetMeta& meta, bool onHost,
                                              const gpu::Workarounds& workarounds);
 
 } // namespace voxsheet::engine

@@ -5,21 +5,19 @@
 
 namespace voxsheet::engine {
 
-std::vector<WantedVolume> volumesOf(const TileSpec& tile, WantedPriority priority) {
+std::vector<WantedVolume> volumesOf(const TileSpec& tile, const RenderPaths& paths, WantedPriority priority) {
+    const bool onHost = paths.onHost(tile);
     std::vector<WantedVolume> volumes{
-        {{tile.dataset, tile.field, tile.step, tile.level}, priority, {tile.floatTexels, marchesRays(tile)}}};
+        {{tile.dataset, tile.field, tile.step, tile.level}, priority, {tile.floatTexels, onHost}}};
     if (tile.clip.object)
-        volumes.push_back(
-            {{tile.clip.object->dataset, 0, 0, 0}, priority, {FloatTexels::Full, marchesRays(tile)}});
+        volumes.push_back({{tile.clip.object->dataset, 0, 0, 0}, priority, {FloatTexels::Full, onHost}});
     if (tile.technique == Technique::Isosurface && tile.isosurface.colouredBy) {
         const auto& by = *tile.isosurface.colouredBy;
-        volumes.push_back(
-            {{by.dataset, by.field, by.step, by.level}, priority, {FloatTexels::Full, marchesRays(tile)}});
+        volumes.push_back({{by.dataset, by.field, by.step, by.level}, priority, {FloatTexels::Full, onHost}});
     }
     for (const VolumeLayer& layer : tile.layers.volumes)
-        volumes.push_back({{layer.dataset, layer.field, layer.step, layer.level},
-                           priority,
-                           {layer.floatTexels, marchesRays(tile)}});
+        volumes.push_back(
+            {{layer.dataset, layer.field, layer.step, layer.level}, priority, {layer.floatTexels, onHost}});
     return volumes;
 }
 

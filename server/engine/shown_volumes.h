@@ -3,6 +3,7 @@
 
 #include "residency/wanted_volume.h"
 #include "stages/tile_spec.h"
+#include "techniques/render_paths.h"
 
 #include <map>
 #include <optional>
@@ -12,7 +13,8 @@
 namespace voxsheet::engine {
 
 /// Every volume that the tile reads.
-[[nodiscard]] std::vector<WantedVolume> volumesOf(const TileSpec& tile, WantedPriority priority);
+[[nodiscard]] std::vector<WantedVolume> volumesOf(const TileSpec& tile, const RenderPaths& paths,
+                                                  WantedPriority priority);
 
 /// Not thread-safe.
 class ShownVolumes {

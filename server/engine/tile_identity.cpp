@@ -200,9 +200,10 @@ void addColours(Collector& collector, const TileSpec& tile) {
 
 } // namespace
 
-std::string tileIdentity(const TileSpec& tile, std::string_view environment) {
+std::string tileIdentity(const TileSpec& tile, RenderPath path, std::string_view environment) {
     Collector collector;
     collector.add(environment);
+    collector.add(std::string_view(pathName(path)));
     collector.add(tile.dataset);
     collector.add(tile.field);
     collector.add(tile.step);

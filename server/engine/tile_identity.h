@@ -2,6 +2,7 @@
 #pragma once
 
 #include "stages/tile_spec.h"
+#include "techniques/render_paths.h"
 
 #include <string>
 #include <string_view>
@@ -9,8 +10,8 @@
 namespace voxsheet::engine {
 
 /// 32 hex digits: XXH3 (128 bit) over every number of the spec that its technique uses, tables by content,
-/// and `environment` (device, driver, build). Same identity, same pixels.
-[[nodiscard]] std::string tileIdentity(const TileSpec& tile, std::string_view environment);
+/// the path that it is drawn by, and `environment` (device, driver, build). Same identity, same pixels.
+[[nodiscard]] std::string tileIdentity(const TileSpec& tile, RenderPath path, std::string_view environment);
 
 /// The same hash over any text.
 [[nodiscard]] std::string textIdentity(std::string_view text);

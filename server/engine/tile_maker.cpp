@@ -388,24 +388,28 @@ void TileMaker::draw(PreparedTile& tile, const CellLook& look, const TileQuality
         spec.layers.volumes.push_back(std::move(drawn));
         tile.layerLevels.push_back(levels);
     }
-    tile.needs = levelNeeds(spec, *look.meta, style, environment_.workarounds);
+    tile.needs = levelNeeds(spec, *look.meta, style, environment_.forms);
     if (look.labels) tile.needs.textureBytes.resize(1);
-    tile.needs.further = furtherVolumes(look, marchesRays(spec));
+    tile.needs.further = furtherVolumes(look, environment_.forms.paths.onHost(spec));
     tile.note = look.note;
     tile.spec = std::move(spec);
-    tile.identity = tileIdentity(*tile.spec, environment_.text);
+    tile.identity = identityOf(*tile.spec);
 }
 
-std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look, bool forRays) const {
+std::string TileMaker::identityOf(const TileSpec& spec) const {
+    return tileIdentity(spec, environment_.forms.paths.of(spec), environment_.text);
+}
+
+std::vector<FurtherVolume> TileMaker::furtherVolumes(const CellLook& look, bool onHost) const {
     std::vector<FurtherVolume> volumes;
     if (look.clipObject && look.clipObject->meta)
-        volumes.push_back(clipObjectVolume(*look.clipObject->meta, forRays, environment_.workarounds));
+        volumes.push_back(clipObjectVolume(*look.clipObject->meta, onHost, environment_.forms.workarounds));
     if (const auto& by = look.colouredBy)
         volumes.push_back(furtherVolume(*by->meta, by->shown.field, by->shown.step,
-                                        {FloatTexels::Full, forRays}, environment_.workarounds));
+                                        {FloatTexels::Full, onHost}, environment_.forms.workarounds));
     for (const LayerLook& layer : look.layers) {
         volumes.push_back(furtherVolume(*layer.meta, layer.shown.field, layer.shown.step,
-                                        {layer.floatTexels, forRays}, environment_.workarounds));
+                                        {layer.floatTexels, onHost}, environment_.forms.workarounds));
         if (layer.labels) volumes.back().textureBytes.resize(1);
     }
     return volumes;
@@ -419,7 +423,7 @@ PreparedTile TileMaker::atLevel(PreparedTile tile, int level) const {
     if (auto& by = spec.isosurface.colouredBy) by->level = std::min(wanted, tile.colourVolumeLevels - 1);
     for (std::size_t i = 0; i < spec.layers.volumes.size(); ++i)
         spec.layers.volumes[i].level = std::min(wanted, tile.layerLevels.at(i) - 1);
-    tile.identity = tileIdentity(spec, environment_.text);
+    tile.identity = identityOf(spec);
     return tile;
 }
 

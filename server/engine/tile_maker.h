@@ -65,8 +65,8 @@ struct SharedQuantity {
 
 /// What is the same for all tiles of this program.
 struct TileEnvironment {
-    std::string text;             ///< device, driver, build: part of every identity
-    gpu::Workarounds workarounds; ///< of the device
+    std::string text; ///< device, driver, build: part of every identity
+    DeviceForms forms;
 };
 
 /// Thread-safe.
@@ -128,8 +128,9 @@ private:
                                                      const std::string& key, const NamingCell& from,
                                                      const std::shared_ptr<const CellContents>& contents);
     void addLabels(CellLook& look) const;
+    [[nodiscard]] std::string identityOf(const TileSpec& spec) const;
     /// That the picture reads besides the cell's own.
-    [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look, bool forRays) const;
+    [[nodiscard]] std::vector<FurtherVolume> furtherVolumes(const CellLook& look, bool onHost) const;
     /// What the picture's colours come from.
     [[nodiscard]] std::shared_ptr<const TransferTable> tableOf(const std::optional<LabelTable>& labels,
                                                                const ResolvedTransfer& transfer);

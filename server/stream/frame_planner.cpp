@@ -1,7 +1,5 @@
 #include "stream/frame_planner.h"
 
-#include "engine/shown_volumes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -153,7 +151,7 @@ void FramePlanner::chooseLevels(const ClientView& view, bool interactive) {
 void FramePlanner::tellShown(const sheet::Workbook& workbook, const ClientView& view) {
     std::vector<WantedVolume> volumes;
     for (const PlannedTile& tile : visible_) {
-        const auto each = engine::volumesOf(*tile.prepared.spec, WantedPriority::Visible);
+        const auto each = engine_.volumesOf(*tile.prepared.spec, WantedPriority::Visible);
         volumes.insert(volumes.end(), each.begin(), each.end());
     }
     if (viewer_.empty() || volumes == shownVolumes_) return;
@@ -186,7 +184,7 @@ void FramePlanner::addNeighbours(const sheet::Workbook& workbook, const ClientVi
         quality.crosshair = true;
         const auto prepared = engine_.prepareTile(workbook, sheet_, cell, view.overrides, quality);
         if (!prepared.spec) continue;
-        const auto each = engine::volumesOf(*prepared.spec, WantedPriority::Soon);
+        const auto each = engine_.volumesOf(*prepared.spec, WantedPriority::Soon);
         volumes.insert(volumes.end(), each.begin(), each.end());
         if (++added == kMostNeighbours) return;
     }

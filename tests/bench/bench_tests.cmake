@@ -82,3 +82,13 @@ if(TARGET voxsheet)
     set_tests_properties(bench.import PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"format\": \"nrrd raw\".*\"plain_mb_s\".*\"format\": \"xsf\".*\"ratio\".*\"first_picture_ms\"")
 endif()
+if(TARGET voxsheet)
+    add_test(NAME bench.calibrate COMMAND voxsheet bench calibrate --dim 24 --pixels 48 --frames 2 --json)
+    set_tests_properties(bench.calibrate PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        ENVIRONMENT XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/tests/bench/calibrate FIXTURES_SETUP calibration
+        PASS_REGULAR_EXPRESSION "\"same_picture\": true.*\"technique\": \"raycast\".*\"chosen\": {.*\"isosurface\": {.*\"date\": ")
+    add_test(NAME bench.calibrate_forget COMMAND voxsheet bench calibrate --forget --json)
+    set_tests_properties(bench.calibrate_forget PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        ENVIRONMENT XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/tests/bench/calibrate FIXTURES_REQUIRED calibration
+        PASS_REGULAR_EXPRESSION "\"forgotten\": true")
+endif()

@@ -32,23 +32,7 @@ const char* nameOf(Geometry geometry) {
     return "sheared";
 }
 
-const char* nameOf(Technique technique) {
-    switch (technique) {
-    case Technique::Slices:
-        return "slices";
-    case Technique::Raycast:
-        return "raycast";
-    case Technique::Mip:
-        return "mip";
-    case Technique::Surface:
-        return "surface";
-    case Technique::Plane:
-        return "plane";
-    case Technique::Isosurface:
-        break;
-    }
-    return "isosurface";
-}
+const char* nameOf(Technique technique) { return techniqueName(technique); }
 
 const char* nameOf(Projection projection) {
     return projection == Projection::Perspective ? "perspective" : "orthographic";

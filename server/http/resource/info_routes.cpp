@@ -23,6 +23,24 @@ nlohmann::json deviceJson(const engine::Engine& engine, const std::vector<std::s
             {"devices", devices}};
 }
 
+nlohmann::json pathsJson(const engine::Engine& engine) {
+    auto paths = nlohmann::json::object();
+    for (const auto& choice : engine.paths()) {
+        auto candidates = nlohmann::json::array();
+        for (const auto path : choice.candidates)
+            candidates.push_back(pathName(path));
+        nlohmann::json told{{"path", pathName(choice.path)},
+                            {"why", reasonName(choice.reason)},
+                            {"candidates", std::move(candidates)}};
+        if (const auto& calibrated = choice.calibrated) {
+            told["date"] = calibrated->date;
+            told["ratio"] = calibrated->ratio; // time of the other path / time of this one
+        }
+        paths[techniqueName(choice.technique)] = std::move(told);
+    }
+    return paths;
+}
+
 nlohmann::json rootsJson(const engine::Engine& engine) {
     auto roots = nlohmann::json::array();
     for (const auto& root : engine.options().roots)
@@ -38,6 +56,7 @@ Response info(const ApiContext& context, const std::vector<std::string>& devices
     return jsonAnswer(nlohmann::json{{"name", "Voxsheet"},
                                      {"version", context.settings.version},
                                      {"device", deviceJson(context.engine, devices)},
+                                     {"paths", pathsJson(context.engine)},
                                      {"budgets",
                                       {{"texture", residency.budgetBytes},
                                        {"texture_why", device != nullptr ? device->textureBudgetReason : ""},
@@ -62,8 +81,11 @@ void addInfoRoutes(Router& router, const ApiContext& context) {
         {.method = "GET",
          .pattern = "/api/v1",
          .handler = [&context, devices = std::move(devices)](Request&) { return info(context, devices); },
-         .summary = "Version, device and why it was chosen, budgets, threads and why, limits, roots",
-         .answerDoc = "{name, version, device, budgets, threads, limits, demo, roots}"});
+         .summary = "Version, device and why it was chosen, by which path each technique draws and why, "
+                    "budgets, threads and why, limits, roots",
+         .answerDoc = "{name, version, device, paths: {TECHNIQUE: {path: shader or simd, why: "
+                      "rule, calibrated or forced, candidates, date and ratio where calibrated}}, budgets, "
+                      "threads, limits, demo, roots}"});
     router.add(
         {.method = "GET",
          .pattern = "/api/v1/keys",

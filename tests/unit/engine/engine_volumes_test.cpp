@@ -115,7 +115,7 @@ TEST_F(EngineTest, LayersLookAsTheirOwnCellsDo) {
     ASSERT_EQ(bars.size(), 3U);
     EXPECT_EQ(bars[1].at("name"), "A2");
     EXPECT_EQ(bars[1].at("weight"), 0.25);
-    EXPECT_EQ(volumesOf(*tile.spec, WantedPriority::Visible).size(), 4U);
+    EXPECT_EQ(engine.volumesOf(*tile.spec, WantedPriority::Visible).size(), 4U);
 }
 
 TEST_F(EngineTest, ATileNeedsTheBytesOfItsLayersAndOfWhatColoursItsSurfaces) {

@@ -13,13 +13,13 @@ TEST(LevelNeeds, AFurtherVolumeIsNamedAndSizedAsTheCellThatShowsIt) {
     TileSpec tile;
     tile.dataset = "b";
     const LevelNeeds own = levelNeeds(tile, meta, {}, {});
-    const FurtherVolume further = furtherVolume(meta, 0, 0, {FloatTexels::Full, true}, {});
+    const FurtherVolume further = furtherVolume(meta, 0, 0, {FloatTexels::Full, false}, {});
     EXPECT_EQ(further.volume, own.volume);
     EXPECT_EQ(further.textureBytes, own.textureBytes);
     ASSERT_EQ(further.textureBytes.size(), static_cast<std::size_t>(meta.levels()));
     EXPECT_EQ(further.textureBytes.at(0), 64U * 32 * 16 * 4) << "float texels";
     EXPECT_TRUE(own.further.empty());
-    const FurtherVolume half = furtherVolume(meta, 0, 0, {FloatTexels::Half, true}, {});
+    const FurtherVolume half = furtherVolume(meta, 0, 0, {FloatTexels::Half, false}, {});
     EXPECT_NE(half.volume, further.volume) << "another texture";
     EXPECT_EQ(half.textureBytes.at(0), 64U * 32 * 16 * 2);
 }
@@ -36,8 +36,8 @@ TEST(LevelNeeds, AGradientTextureIsTheDrawnVolumesOwn) {
 
 TEST(LevelNeeds, VolumesThatRaysReadAreCountedInHostMemoryWhereTheProcessorMarches) {
     const DatasetMeta meta = test::metaOf("b", {64, 32, 16});
-    gpu::Workarounds simd;
-    simd.simdRays = true;
+    DeviceForms simd;
+    simd.paths.set(Technique::Raycast, RenderPath::Simd);
     TileSpec tile;
     tile.dataset = "b";
     tile.shading.enabled = true;
@@ -54,9 +54,9 @@ TEST(LevelNeeds, VolumesThatRaysReadAreCountedInHostMemoryWhereTheProcessorMarch
 TEST(LevelNeeds, AClipObjectStaysAtLevelZero) {
     const DatasetMeta distances = test::metaOf("d", {64, 32, 16});
     ASSERT_GT(distances.levels(), 1);
-    const FurtherVolume object = clipObjectVolume(distances, true, {});
+    const FurtherVolume object = clipObjectVolume(distances, false, {});
     EXPECT_EQ(object.textureBytes, (std::vector<std::uint64_t>{64U * 32 * 16 * 4}));
-    EXPECT_EQ(object.volume, furtherVolume(distances, 0, 0, {FloatTexels::Full, true}, {}).volume)
+    EXPECT_EQ(object.volume, furtherVolume(distances, 0, 0, {FloatTexels::Full, false}, {}).volume)
         << "a cell that shows the distances shares the texture";
 }
 

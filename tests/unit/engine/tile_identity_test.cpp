@@ -24,7 +24,7 @@ std::set<std::string> identitiesOf(const TileSpec& base, const std::vector<Chang
     for (const Change& change : changes) {
         TileSpec spec = base;
         change(spec);
-        identities.insert(tileIdentity(spec, "device"));
+        identities.insert(tileIdentity(spec, RenderPath::Shader, "device"));
     }
     return identities;
 }
@@ -34,15 +34,16 @@ void expectAllDiffer(const TileSpec& base, const std::vector<Change>& changes) {
 }
 
 void expectNoneDiffers(const TileSpec& base, const std::vector<Change>& changes) {
-    EXPECT_EQ(identitiesOf(base, changes), std::set<std::string>{tileIdentity(base, "device")});
+    EXPECT_EQ(identitiesOf(base, changes),
+              std::set<std::string>{tileIdentity(base, RenderPath::Shader, "device")});
 }
 
 TEST(TileIdentity, EqualSpecsHaveEqualIdentitiesWhateverTheirTables) {
     const TileSpec a = tile();
     const TileSpec b = tile();
     ASSERT_NE(a.transfer, b.transfer);
-    EXPECT_EQ(tileIdentity(a, "device"), tileIdentity(b, "device"));
-    EXPECT_EQ(tileIdentity(a, "device").size(), 32U);
+    EXPECT_EQ(tileIdentity(a, RenderPath::Shader, "device"), tileIdentity(b, RenderPath::Shader, "device"));
+    EXPECT_EQ(tileIdentity(a, RenderPath::Shader, "device").size(), 32U);
 }
 
 TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
@@ -98,7 +99,11 @@ TEST(TileIdentity, EveryNumberThatDecidesPixelsCounts) {
         changedTable([](TransferTable& t) { t.entries.push_back(glm::vec4(1.0F)); }),
     };
     expectAllDiffer(tile(), changes);
-    EXPECT_NE(tileIdentity(tile(), "device"), tileIdentity(tile(), "another device"));
+    EXPECT_NE(tileIdentity(tile(), RenderPath::Shader, "device"),
+              tileIdentity(tile(), RenderPath::Shader, "another device"));
+    EXPECT_NE(tileIdentity(tile(), RenderPath::Shader, "device"),
+              tileIdentity(tile(), RenderPath::Simd, "device"))
+        << "paths may differ by 1/255";
 }
 
 TEST(TileIdentity, LightsCountWhereThereIsShading) {
@@ -206,7 +211,8 @@ TEST(TileIdentity, IsosurfacesCountWhereTheyAreShown) {
     TileSpec b = surfaces;
     colouredBy(0.1F, 0.0F)(a);
     colouredBy(0.1F, 0.7F)(b);
-    EXPECT_EQ(tileIdentity(a, "d"), tileIdentity(b, "d")) << "its opacities are not used";
+    EXPECT_EQ(tileIdentity(a, RenderPath::Shader, "d"), tileIdentity(b, RenderPath::Shader, "d"))
+        << "its opacities are not used";
     TileSpec rays = surfaces;
     rays.technique = Technique::Raycast;
     expectNoneDiffers(rays, {[](TileSpec& s) { s.isosurface = {}; }});
@@ -264,7 +270,7 @@ TEST(TileIdentity, WhatTheProjectionDoesNotUseDoesNotCount) {
     TileSpec a = tile();
     TileSpec b = tile();
     b.camera.heightWorld = 5;
-    EXPECT_EQ(tileIdentity(a, "d"), tileIdentity(b, "d"));
+    EXPECT_EQ(tileIdentity(a, RenderPath::Shader, "d"), tileIdentity(b, RenderPath::Shader, "d"));
 }
 
 TEST(TileIdentity, TheBuildIsKnown) { EXPECT_EQ(buildIdentity().size(), 32U); }
