@@ -71,8 +71,8 @@ glm::ivec2 parseTileSize(const std::string& text) {
 
 std::vector<ResolutionCriterion> criteriaOf(const TimeNTexts& texts) {
     std::vector<ResolutionCriterion> criteria;
-    if (texts.dr.empty()) return criteria;
-    for (const auto& name : commaList(texts.dr))
+    if (!texts.dr) return criteria;
+    for (const auto& name : commaList(*texts.dr))
         criteria.push_back(criterionOf(name));
     return criteria;
 }
@@ -92,7 +92,7 @@ std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNText
         if (texts.drLimit) limitUsed = setLimit(runs.back().rule, *texts.drLimit) || limitUsed;
     }
     if (texts.drLimit && !limitUsed)
-        throw InvalidInput("--dr-limit", "--dr " + texts.dr + " has none",
+        throw InvalidInput("--dr-limit", "--dr " + texts.dr.value_or("off") + " has none",
                            "it belongs to --dr time, rate, count or bytes")
             .withField("--dr-limit");
     return runs;

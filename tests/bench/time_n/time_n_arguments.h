@@ -14,7 +14,7 @@ struct TimeNTexts {
     std::string tile = "256x256";
     std::string textureBudget = "256M";
     std::string memoryBudget = "512M";
-    std::string dr;                ///< a criterion, or several with commas: a run each; empty: off
+    std::optional<std::string> dr; ///< a criterion, or several with commas: a run each; not given: off
     std::optional<double> drLimit; ///< of --dr time, rate, count or bytes
 };
 
@@ -25,7 +25,7 @@ struct TimeNTexts {
 /// what cannot be.
 [[nodiscard]] std::vector<TimeNOptions> withTexts(const TimeNOptions& options, const TimeNTexts& texts);
 
-/// The criteria of texts.dr; empty when it is. Throws InvalidInput, with field, for what is none.
+/// The criteria of texts.dr; none when it is not given. Throws InvalidInput, with field, for what is none.
 [[nodiscard]] std::vector<ResolutionCriterion> criteriaOf(const TimeNTexts& texts);
 
 } // namespace voxsheet::bench
