@@ -20,7 +20,7 @@ if (gallery) mkdirSync(gallery, { recursive: true });
 
 const row = ["A1", "B1", "C1"];
 // Of the files' sides nothing is said; one has a flag in the highest bit.
-const howHeadsAreRead = ["FullHead.mhd:orientation=LPI", "FullHead.mhd:bit_mask=0x7fff", "quarter.nhdr:orientation=LPI"].flatMap((text) => ["--import", text]);
+const howHeadsAreRead = ["FullHead.mhd:orientation=LPI", "FullHead.mhd:bit_mask=0x7fff", "HeadMRVolume.mhd:orientation=LPS", "quarter.nhdr:orientation=LPI"].flatMap((text) => ["--import", text]);
 
 async function screenshot(page, name) {
     if (gallery) await page.screenshot({ path: path.join(gallery, `${name}.png`) });

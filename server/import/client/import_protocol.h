@@ -19,7 +19,7 @@ namespace voxsheet::import {
 
 /// Goes into every key: raise it when a reader gives other voxels or other geometry for the same file than
 /// before.
-inline constexpr const char* kImporterVersion = "7";
+inline constexpr const char* kImporterVersion = "8";
 
 struct ProgressMessage {
     double fraction = 0.0;

@@ -6,6 +6,7 @@
 #include "import/formats/number_text.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -115,6 +116,42 @@ ScalarType metaType(const TagReader& tags) {
     return it->second;
 }
 
+/// The axis of LPS space that runs from `side`, and its sign there; nullopt: no side.
+std::optional<std::pair<std::size_t, double>> directionFrom(char side) {
+    static constexpr std::string_view from = "RLAPIS"; // where LPS axes begin, and where they end
+    const auto place = from.find(side);
+    if (place == std::string_view::npos) return std::nullopt;
+    return std::pair(place / 2, place % 2 == 0 ? 1.0 : -1.0);
+}
+
+/// Turns the first three axes as the letters say, each the side that an axis comes from ("RAI": along LPS).
+/// False, and nothing changed, where they do not name three axes ("???").
+bool turnAxes(const std::string& letters, std::size_t axes, std::vector<double>& transform) {
+    if (axes < 3 || letters.size() != 3) return false;
+    auto turned = transform;
+    std::array<bool, 3> taken{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto direction = directionFrom(letters[axis]);
+        if (!direction || std::exchange(taken[direction->first], true)) return false;
+        turned[axis * axes + axis] = 0.0;
+        turned[axis * axes + direction->first] = direction->second;
+    }
+    transform = std::move(turned);
+    return true;
+}
+
+/// Where there are both a matrix and letters the matrix counts: it says more.
+void readOrientation(const TagReader& tags, MetaImageHeader& header) {
+    const auto axes = header.dims.size();
+    std::vector<double> identity(axes * axes, 0.0);
+    for (std::size_t axis = 0; axis < axes; ++axis)
+        identity[axis * axes + axis] = 1.0;
+    header.oriented = tags.find({"TransformMatrix", "Rotation", "Orientation"}) != nullptr;
+    header.transform = tags.numbers({"TransformMatrix", "Rotation", "Orientation"}, std::move(identity));
+    const auto* letters = tags.find({"AnatomicalOrientation"});
+    if (!header.oriented && letters) header.oriented = turnAxes(*letters, axes, header.transform);
+}
+
 void readShape(const TagReader& tags, MetaImageHeader& header) {
     const auto count = tags.integer("NDims");
     if (!count) tags.fail("the header has no tag 'NDims'");
@@ -134,10 +171,7 @@ void readShape(const TagReader& tags, MetaImageHeader& header) {
     if (std::any_of(header.spacing.begin(), header.spacing.end(), [](double length) { return length < 0.0; }))
         tags.fail("its spacing is negative");
     header.offset = tags.numbers({"Offset", "Position", "Origin"}, std::vector<double>(axes, 0.0));
-    std::vector<double> identity(axes * axes, 0.0);
-    for (std::size_t axis = 0; axis < axes; ++axis)
-        identity[axis * axes + axis] = 1.0;
-    header.transform = tags.numbers({"TransformMatrix", "Rotation", "Orientation"}, identity);
+    readOrientation(tags, header);
 }
 
 } // namespace

@@ -14,8 +14,9 @@ namespace voxsheet::import {
 struct MetaImageHeader {
     std::vector<std::int64_t> dims; ///< 1 to 4, fastest first
     std::vector<double> spacing;    ///< one per axis
-    std::vector<double> offset;     ///< one per axis, LPS
-    std::vector<double> transform;  ///< NDims x NDims; row i is the direction of axis i, LPS
+    std::vector<double> offset;     ///< one per axis; LPS where `oriented`
+    std::vector<double> transform;  ///< NDims x NDims; row i is the direction of axis i; LPS where `oriented`
+    bool oriented = false;          ///< the file says how the axes lie in the patient
     ScalarType type = ScalarType::U8;
     int channels = 1;
     bool bigEndian = false;

@@ -13,7 +13,7 @@ namespace voxsheet::import {
 
 namespace {
 
-/// ITK's world is LPS+; ours RAS+.
+/// ITK's world is LPS+; ours RAS+. A file that says no orientation has no sides: its axes are the world's.
 void placeGrid(const MetaImageHeader& header, DatasetMeta& meta) {
     const auto axes = header.dims.size();
     const auto spatial = std::min<std::size_t>(axes, 3);
@@ -31,8 +31,9 @@ void placeGrid(const MetaImageHeader& header, DatasetMeta& meta) {
     if (spatial < 3)
         meta.notes.push_back("The file has " + std::to_string(spatial) + (spatial == 1 ? " axis" : " axes") +
                              "; it is shown one voxel thick.");
-    meta.grid.worldFromIndex = rasFromLps() * affine(columns, origin);
-    meta.anatomical = true;
+    meta.grid.worldFromIndex = affine(columns, origin);
+    if (header.oriented) meta.grid.worldFromIndex = rasFromLps() * meta.grid.worldFromIndex;
+    meta.anatomical = header.oriented;
     meta.lengthUnit = "mm";
 }
 

@@ -85,6 +85,34 @@ TEST_F(FormatsMetaImage, PlacesItInRas) {
     EXPECT_EQ(meta.lengthUnit, "mm");
 }
 
+TEST_F(FormatsMetaImage, HasSidesOnlyWhereTheFileSaysThem) {
+    const std::string place = "Offset = 10 20 30\nElementSpacing = 2 3 4\n";
+    const auto meta = [&](const std::string& tags) {
+        return load(local(header("MET_UCHAR", place + tags), bytesOf(ramp<unsigned char>(24)))).meta();
+    };
+    const std::string identity = " = 1 0 0 0 1 0 0 0 1\n";
+    for (const std::string silent : {"", "AnatomicalOrientation = ???\n", "AnatomicalOrientation = RAL\n",
+                                     "AnatomicalOrientation = RA\n", "CenterOfRotation = 0 0 0\n"}) {
+        const auto unknown = meta(silent);
+        EXPECT_FALSE(unknown.anatomical) << silent;
+        EXPECT_EQ(unknown.lengthUnit, "mm") << silent;
+        EXPECT_EQ(unknown.grid.worldFromIndex,
+                  glm::dmat4(2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1)) // as the file lies
+            << silent;
+    }
+    const glm::dmat4 lps(-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, -10, -20, 30, 1);
+    for (const auto& said : {"TransformMatrix" + identity, "Rotation" + identity, "Orientation" + identity,
+                             std::string("AnatomicalOrientation = RAI\n"),
+                             "TransformMatrix" + identity + "AnatomicalOrientation = ???\n",
+                             "TransformMatrix" + identity + "AnatomicalOrientation = PSL\n"}) {
+        EXPECT_TRUE(meta(said).anatomical) << said;
+        EXPECT_EQ(meta(said).grid.worldFromIndex, lps) << said;
+    }
+    // From posterior, superior and left: to the front, down and to the right.
+    EXPECT_EQ(meta("AnatomicalOrientation = PSL\n").grid.worldFromIndex,
+              glm::dmat4(0, 2, 0, 0, 0, 0, -3, 0, 4, 0, 0, 0, -10, -20, 30, 1));
+}
+
 TEST_F(FormatsMetaImage, SplitsChannelsAndTime) {
     const auto values = ramp<unsigned char>(24);
     const auto channels =

@@ -51,6 +51,8 @@ TEST_F(FormatsRealData, MetaImages) {
     const auto small = load(file("vol_HeadMR/HeadMRVolume.mhd"));
     EXPECT_EQ(small.meta().grid.dims, glm::ivec3(48, 62, 42));
     EXPECT_EQ(spacingWorld(small.meta().grid), glm::dvec3(4));
+    for (const auto* scan : {&head, &frog, &small}) // they name no sides
+        EXPECT_FALSE(scan->meta().anatomical);
 }
 
 TEST_F(FormatsRealData, VolVisSlices) {
