@@ -3,6 +3,7 @@
 #include "volume/parallel_for.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -38,16 +39,39 @@ struct Moments {
     }
 };
 
+/// Sums run in this many lanes: a single one would wait for each addition before the next.
+constexpr std::size_t kLanes = 8;
+
+template <typename Each>
+void inLanes(std::span<const double> values, const Each& each) {
+    const std::size_t whole = values.size() / kLanes * kLanes;
+    for (std::size_t i = 0; i < whole; i += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            each(lane, values[i + lane]);
+    for (std::size_t i = whole; i < values.size(); ++i)
+        each(i - whole, values[i]);
+}
+
 Moments momentsOf(std::span<const double> values) {
     Moments m;
     m.count = values.size();
     if (values.empty()) return m;
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    m.low = *low;
-    m.high = *high;
-    m.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    for (const double v : values)
-        m.squares += (v - m.mean) * (v - m.mean);
+    std::array<double, kLanes> low;
+    std::array<double, kLanes> high;
+    std::array<double, kLanes> sum{};
+    low.fill(values[0]);
+    high.fill(values[0]);
+    inLanes(values, [&](std::size_t lane, double v) {
+        low[lane] = v < low[lane] ? v : low[lane];
+        high[lane] = v > high[lane] ? v : high[lane];
+        sum[lane] += v;
+    });
+    m.low = *std::min_element(low.begin(), low.end());
+    m.high = *std::max_element(high.begin(), high.end());
+    m.mean = std::accumulate(sum.begin(), sum.end(), 0.0) / static_cast<double>(values.size());
+    std::array<double, kLanes> squares{};
+    inLanes(values, [&](std::size_t lane, double v) { squares[lane] += (v - m.mean) * (v - m.mean); });
+    m.squares = std::accumulate(squares.begin(), squares.end(), 0.0);
     return m;
 }
 
@@ -65,14 +89,26 @@ FieldStep summary(const Moments& total, std::uint64_t samples) {
     return step;
 }
 
-std::size_t binOf(double value, const Histogram& histogram) {
-    // Halves, because the whole width overflows for values near the ends of double.
-    const double halfWidth = 0.5 * histogram.high - 0.5 * histogram.low;
-    if (!(halfWidth > 0.0)) return 0;
-    const double position = (0.5 * value - 0.5 * histogram.low) / halfWidth;
-    const auto bin = static_cast<long>(position * kHistogramBins);
-    return static_cast<std::size_t>(std::clamp(bin, 0L, static_cast<long>(kHistogramBins) - 1));
-}
+/// The bins of a histogram by value.
+class Bins {
+public:
+    explicit Bins(const Histogram& histogram)
+        // Halves, because the whole width overflows for values near the ends of double.
+        : halfLow_(0.5 * histogram.low), halfWidth_(0.5 * histogram.high - 0.5 * histogram.low) {}
+
+    /// \param value  finite
+    [[nodiscard]] std::size_t of(double value) const {
+        if (!(halfWidth_ > 0.0)) return 0;
+        const double place = (0.5 * value - halfLow_) / halfWidth_ * kHistogramBins;
+        const double above = place > 0.0 ? place : 0.0;
+        return static_cast<std::size_t>(
+            static_cast<int>(above < kHistogramBins - 1 ? above : kHistogramBins - 1));
+    }
+
+private:
+    double halfLow_;
+    double halfWidth_;
+};
 
 /// 8- and 16-bit samples: count each of the possible values once, then everything else is exact and cheap.
 template <typename T>
@@ -103,8 +139,9 @@ FieldStep fromCounts(const StoredArray& array) {
             total.merge({value, value, value, 0.0, counts[v]});
         }
     auto step = summary(total, static_cast<std::uint64_t>(samples));
+    const Bins bins(step.histogram);
     for (std::size_t v = 0; v < valueCount; ++v)
-        if (counts[v] > 0) step.histogram.counts[binOf(valueAt(v), step.histogram)] += counts[v];
+        if (counts[v] > 0) step.histogram.counts[bins.of(valueAt(v))] += counts[v];
     return step;
 }
 
@@ -119,10 +156,13 @@ FieldStep fromSamples(const StoredArray& array) {
     // Chunks are merged in their own order, so that the result does not depend on the number of threads.
     std::vector<Moments> chunks(static_cast<std::size_t>((samples + kChunkSamples - 1) / kChunkSamples));
     parallelFor(samples, kChunkSamples, [&](long begin, long end) {
-        std::vector<double> values;
-        values.reserve(static_cast<std::size_t>(end - begin));
-        for (long i = begin; i < end; ++i)
-            if (const double value = valueAt(i); std::isfinite(value)) values.push_back(value);
+        std::vector<double> values(static_cast<std::size_t>(end - begin));
+        std::size_t finite = 0;
+        for (long i = begin; i < end; ++i) {
+            values[finite] = valueAt(i);
+            finite += std::isfinite(values[finite]) ? 1U : 0U;
+        }
+        values.resize(finite);
         chunks[static_cast<std::size_t>(begin / kChunkSamples)] = momentsOf(values);
     });
     Moments total;
@@ -131,10 +171,11 @@ FieldStep fromSamples(const StoredArray& array) {
     auto step = summary(total, static_cast<std::uint64_t>(samples));
 
     std::mutex mutex;
+    const Bins bins(step.histogram);
     parallelFor(samples, kChunkSamples, [&](long begin, long end) {
         std::vector<std::uint64_t> local(kHistogramBins);
         for (long i = begin; i < end; ++i)
-            if (const double value = valueAt(i); std::isfinite(value)) ++local[binOf(value, step.histogram)];
+            if (const double value = valueAt(i); std::isfinite(value)) ++local[bins.of(value)];
         const std::lock_guard lock(mutex);
         for (std::size_t b = 0; b < local.size(); ++b)
             step.histogram.counts[b] += local[b];

@@ -3,13 +3,37 @@
 #include "base/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace voxsheet::engine {
 
 namespace {
 
 glm::vec4 premultiplied(const glm::vec4& colour) { return {glm::vec3(colour) * colour.w, colour.w}; }
+
+constexpr std::array<float, 256> kPartOfByte = [] {
+    std::array<float, 256> parts{};
+    for (std::size_t byte = 0; byte < parts.size(); ++byte)
+        parts[byte] = static_cast<float>(byte) / 255.0F;
+    return parts;
+}();
+
+/// To the nearest, ties up, like std::lround but without a call. NaN gives 0.
+unsigned char roundedByte(float part) {
+    const float above = part > 0.0F ? part : 0.0F;
+    const float value = (above < 1.0F ? above : 1.0F) * 255.0F;
+    const auto whole = static_cast<int>(value);
+    return static_cast<unsigned char>(whole + (value - static_cast<float>(whole) >= 0.5F ? 1 : 0));
+}
+
+constexpr std::size_t kBlockValues = 16; ///< a fixed number, so that compilers make vectors of it
+
+void roundBlock(const float* parts, unsigned char* bytes) {
+    for (std::size_t i = 0; i < kBlockValues; ++i)
+        bytes[i] = roundedByte(parts[i]);
+}
 
 /// Drops whole UTF-8 characters from the end.
 void dropLastCharacter(std::string& text) {
@@ -20,8 +44,8 @@ void dropLastCharacter(std::string& text) {
 
 } // namespace
 
-Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background)
-    : size_(sizePixels),
+Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background, Typesetter& typesetter)
+    : size_(sizePixels), typesetter_(typesetter),
       rgba_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y) * 4) {
     const glm::vec4 colour = premultiplied(background);
     for (std::size_t i = 0; i < rgba_.size(); i += 4) {
@@ -29,8 +53,6 @@ Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background)
             rgba_[i + static_cast<std::size_t>(c)] = colour[c];
     }
 }
-
-Canvas::~Canvas() = default;
 
 void Canvas::blend(glm::ivec2 at, const glm::vec4& colour) {
     float* pixel = rgba_.data() + (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
@@ -73,31 +95,26 @@ void Canvas::line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect&
 }
 
 void Canvas::put(const TilePixels& picture, glm::ivec2 at) {
+    const int left = std::max(0, -at.x);
+    const int right = std::min(picture.size.x, size_.x - at.x);
+    if (right <= left) return;
+    const auto values = static_cast<std::size_t>(right - left) * 4;
     for (int y = std::max(0, -at.y); y < std::min(picture.size.y, size_.y - at.y); ++y) {
-        for (int x = std::max(0, -at.x); x < std::min(picture.size.x, size_.x - at.x); ++x) {
-            const std::size_t from = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
-                                      static_cast<std::size_t>(x)) *
-                                     4;
-            float* to =
-                rgba_.data() + (static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(size_.x) +
-                                static_cast<std::size_t>(x + at.x)) *
-                                   4;
-            for (std::size_t c = 0; c < 4; ++c) {
-                to[c] = picture.rgba32f.empty() ? static_cast<float>(picture.rgba8[from + c]) / 255.0F
-                                                : picture.rgba32f[from + c];
-            }
-        }
+        const std::size_t from = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
+                                  static_cast<std::size_t>(left)) *
+                                 4;
+        float* to = rgba_.data() + (static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(size_.x) +
+                                    static_cast<std::size_t>(left + at.x)) *
+                                       4;
+        if (picture.rgba32f.empty())
+            std::transform(&picture.rgba8[from], &picture.rgba8[from] + values, to,
+                           [](unsigned char byte) { return kPartOfByte[byte]; });
+        else
+            std::copy_n(&picture.rgba32f[from], values, to);
     }
 }
 
-Typesetter& Canvas::typesetter() {
-    if (!typesetter_) typesetter_ = std::make_unique<Typesetter>();
-    return *typesetter_;
-}
-
-int Canvas::textWidth(const std::string& line, int fontPixels) {
-    return typesetter().width(line, fontPixels);
-}
+int Canvas::textWidth(const std::string& line, int fontPixels) { return typesetter_.width(line, fontPixels); }
 
 std::string Canvas::shortened(std::string line, int fontPixels, int maxWidth) {
     if (textWidth(line, fontPixels) <= maxWidth) return line;
@@ -109,7 +126,7 @@ std::string Canvas::shortened(std::string line, int fontPixels, int maxWidth) {
 void Canvas::text(glm::ivec2 at, TextAlign align, const std::string& line, int fontPixels,
                   const glm::vec4& colour, int maxWidth) {
     if (line.empty()) return;
-    const TextMask mask = typesetter().set(shortened(line, fontPixels, maxWidth), fontPixels);
+    const TextMask mask = typesetter_.set(shortened(line, fontPixels, maxWidth), fontPixels);
     const int shift = align == TextAlign::Left    ? 0
                       : align == TextAlign::Right ? mask.advance
                                                   : mask.advance / 2;
@@ -175,9 +192,11 @@ TilePixels Canvas::pixels(PixelFormat format) const {
         return picture;
     }
     picture.rgba8.resize(rgba_.size());
-    std::transform(rgba_.begin(), rgba_.end(), picture.rgba8.begin(), [](float v) {
-        return static_cast<unsigned char>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F));
-    });
+    const std::size_t blocks = rgba_.size() / kBlockValues * kBlockValues;
+    for (std::size_t i = 0; i < blocks; i += kBlockValues)
+        roundBlock(&rgba_[i], &picture.rgba8[i]);
+    std::transform(rgba_.begin() + static_cast<std::ptrdiff_t>(blocks), rgba_.end(),
+                   picture.rgba8.begin() + static_cast<std::ptrdiff_t>(blocks), roundedByte);
     return picture;
 }
 

@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,8 @@ enum class TextAlign { Left, Centre, Right };
 class Canvas {
 public:
     /// \param background  not premultiplied
-    Canvas(glm::ivec2 sizePixels, const glm::vec4& background);
-    ~Canvas();
-    Canvas(const Canvas&) = delete;
-    Canvas& operator=(const Canvas&) = delete;
+    /// \param typesetter  outlives the canvas
+    Canvas(glm::ivec2 sizePixels, const glm::vec4& background, Typesetter& typesetter);
 
     /// Over what is there. Parts outside the canvas are left out. \param colour  not premultiplied
     void fill(const PixelRect& area, const glm::vec4& colour);
@@ -45,14 +42,12 @@ public:
     [[nodiscard]] TilePixels pixels(PixelFormat format) const;
 
 private:
-    [[nodiscard]] Typesetter& typesetter();
     [[nodiscard]] std::vector<std::string> wrapped(const std::string& words, int fontPixels, int maxWidth);
     [[nodiscard]] std::string shortened(std::string line, int fontPixels, int maxWidth);
     void blend(glm::ivec2 at, const glm::vec4& premultipliedColour);
 
     glm::ivec2 size_;
-    std::unique_ptr<Typesetter>
-        typesetter_;          ///< made when the first text is set: pictures without text need no font
+    Typesetter& typesetter_;
     std::vector<float> rgba_; ///< top row first
 };
 

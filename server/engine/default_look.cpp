@@ -1,5 +1,7 @@
 #include "engine/default_look.h"
 
+#include "engine/sorted_values.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -183,8 +185,7 @@ double ValueSummary::quantile(double probability) const {
 }
 
 ValueSummary summariseValues(std::vector<float>& values, double min, double max) {
-    std::erase_if(values, [](float value) { return !std::isfinite(value); });
-    std::sort(values.begin(), values.end());
+    sortFinite(values);
     ValueSummary summary{min, max, false, {}};
     if (values.empty()) return summary;
     summary.quantiles.reserve(ValueSummary::kQuantiles);

@@ -205,7 +205,8 @@ void Engine::setShown(const std::string& viewer, std::vector<WantedVolume> volum
 SheetImage Engine::renderSheet(const SheetImageRequest& request) const {
     const sheet::Snapshot now = snapshot();
     const SheetImageSources sources{
-        keys(), implementation_->tiles, [this](const std::vector<TileSpec>& specs, PixelFormat format) {
+        keys(), implementation_->tiles, implementation_->typesetter,
+        [this](const std::vector<TileSpec>& specs, PixelFormat format) {
             return render({.tiles = specs, .format = format}, FramePriority::Export).get();
         }};
     return composeSheet(request, *now, implementation_->contents(*now), sources);

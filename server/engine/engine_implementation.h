@@ -6,6 +6,7 @@
 #include "engine/probe_service.h"
 #include "engine/shown_volumes.h"
 #include "engine/tile_maker.h"
+#include "engine/typesetter.h"
 #include "engine/workbook_keeper.h"
 #include "residency/host_volume_cache.h"
 
@@ -75,6 +76,7 @@ public:
     std::mutex shownMutex; ///< held until the render thread has been told, so that the newest wins
     ShownVolumes shown;
     TileMaker tiles;
+    Typesetter typesetter;
     ProbeService probes;
     WorkbookKeeper workbook;
 };

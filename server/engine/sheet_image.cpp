@@ -99,7 +99,7 @@ public:
         layout_ = layoutSheet(layoutRequest());
         prepareTiles();
         const FrameResult frame = renderTiles();
-        Canvas canvas(layout_.sizePixels, palette_.page);
+        Canvas canvas(layout_.sizePixels, palette_.page, sources_.typesetter);
         drawHeaders(canvas);
         std::size_t next = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i) {

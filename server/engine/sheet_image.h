@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/sheet_layout.h"
 #include "engine/tile_maker.h"
+#include "engine/typesetter.h"
 
 #include <functional>
 
@@ -13,6 +14,7 @@ namespace voxsheet::engine {
 struct SheetImageSources {
     const sheet::KeyTable& keys;
     TileMaker& tiles;
+    Typesetter& typesetter;
     /// Draws these tiles; throws what the render thread throws.
     std::function<FrameResult(const std::vector<TileSpec>&, PixelFormat)> render;
 };

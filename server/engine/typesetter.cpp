@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -15,6 +18,7 @@ namespace voxsheet::engine {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
+constexpr std::size_t kMostGlyphs = 4096; ///< kept; some 100 bytes each
 
 std::vector<char32_t> charactersOf(const std::string& text) {
     std::vector<char32_t> characters;
@@ -62,74 +66,117 @@ const std::string& pictureFont() {
     return font;
 }
 
-struct Typesetter::Face {
-    FT_Library library = nullptr;
-    FT_Face face = nullptr;
+/// The font at one size at a time, and the letters of every size that were drawn. Not thread-safe.
+class Typesetter::Face {
+public:
+    struct Glyph {
+        bool drawn = false; ///< false: the font cannot draw it
+        int advance = 0;
+        glm::ivec2 offset{0}; ///< of the mask's top left corner from the pen, y up
+        glm::ivec2 size{0};
+        std::vector<unsigned char> coverage; ///< size.x * size.y, top row first
+    };
 
     Face() {
-        if (FT_Init_FreeType(&library) == 0 && FT_New_Face(library, pictureFont().c_str(), 0, &face) == 0)
+        if (FT_Init_FreeType(&library_) == 0 && FT_New_Face(library_, pictureFont().c_str(), 0, &face_) == 0)
             return;
-        FT_Done_FreeType(library);
+        FT_Done_FreeType(library_);
         throw Unsupported("text in pictures", "FreeType cannot read " + pictureFont(),
                           "install fonts-dejavu-core anew, or set annotations to none");
     }
     ~Face() {
-        FT_Done_Face(face);
-        FT_Done_FreeType(library);
+        FT_Done_Face(face_);
+        FT_Done_FreeType(library_);
     }
     Face(const Face&) = delete;
     Face& operator=(const Face&) = delete;
+
+    void setSize(int fontPixels) {
+        const int size = std::max(1, fontPixels);
+        if (size == size_) return;
+        FT_Set_Pixel_Sizes(face_, 0, static_cast<FT_UInt>(size));
+        size_ = size;
+    }
+    [[nodiscard]] int ascent() const { return static_cast<int>(face_->size->metrics.ascender >> 6); }
+    [[nodiscard]] int descent() const { return -static_cast<int>(face_->size->metrics.descender >> 6); }
+
+    /// Calls put(glyph, kerning before it in pixels) for every character.
+    void forEachGlyph(const std::string& line, const std::function<void(const Glyph&, int)>& put) {
+        FT_UInt previous = 0;
+        for (const char32_t character : charactersOf(line)) {
+            const FT_UInt index = FT_Get_Char_Index(face_, character);
+            FT_Vector kerning{0, 0};
+            if (previous != 0) FT_Get_Kerning(face_, previous, index, FT_KERNING_DEFAULT, &kerning);
+            previous = index;
+            put(glyph(index), static_cast<int>(kerning.x >> 6));
+        }
+    }
+
+private:
+    const Glyph& glyph(FT_UInt index) {
+        if (glyphs_.size() >= kMostGlyphs) glyphs_.clear();
+        const auto [known, isNew] = glyphs_.try_emplace({size_, index});
+        Glyph& made = known->second;
+        if (!isNew || FT_Load_Glyph(face_, index, FT_LOAD_RENDER) != 0) return made;
+        const FT_GlyphSlot slot = face_->glyph;
+        made.drawn = true;
+        made.advance = static_cast<int>(slot->advance.x >> 6);
+        made.offset = {slot->bitmap_left, slot->bitmap_top};
+        made.size = {static_cast<int>(slot->bitmap.width), static_cast<int>(slot->bitmap.rows)};
+        for (int y = 0; y < made.size.y; ++y) {
+            const unsigned char* row = slot->bitmap.buffer + y * slot->bitmap.pitch;
+            made.coverage.insert(made.coverage.end(), row, row + made.size.x);
+        }
+        return made;
+    }
+
+    FT_Library library_ = nullptr;
+    FT_Face face_ = nullptr;
+    int size_ = 0;
+    std::map<std::pair<int, FT_UInt>, Glyph> glyphs_; ///< by size and index
 };
 
-Typesetter::Typesetter() : face_(std::make_unique<Face>()) {}
+Typesetter::Typesetter() = default;
 Typesetter::~Typesetter() = default;
 
+Typesetter::Face& Typesetter::face(int fontPixels) {
+    if (!face_) face_ = std::make_unique<Face>();
+    face_->setSize(fontPixels);
+    return *face_;
+}
+
 TextMask Typesetter::set(const std::string& line, int fontPixels) {
-    FT_Face face = face_->face;
-    FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(std::max(1, fontPixels)));
+    const int letters = width(line, fontPixels);
+    const std::lock_guard lock(mutex_);
+    Face& font = face(fontPixels);
     TextMask mask;
-    mask.baseline = static_cast<int>(face->size->metrics.ascender >> 6);
-    const int descent = -static_cast<int>(face->size->metrics.descender >> 6);
-    mask.size = {width(line, fontPixels) + fontPixels, mask.baseline + descent};
+    mask.baseline = font.ascent();
+    mask.size = {letters + fontPixels, mask.baseline + font.descent()};
     mask.coverage.assign(static_cast<std::size_t>(mask.size.x) * static_cast<std::size_t>(mask.size.y), 0);
-    FT_UInt previous = 0;
-    for (const char32_t character : charactersOf(line)) {
-        const FT_UInt glyph = FT_Get_Char_Index(face, character);
-        FT_Vector kerning{0, 0};
-        if (previous != 0) FT_Get_Kerning(face, previous, glyph, FT_KERNING_DEFAULT, &kerning);
-        mask.advance += static_cast<int>(kerning.x >> 6);
-        previous = glyph;
-        if (FT_Load_Glyph(face, glyph, FT_LOAD_RENDER) != 0) continue;
-        const FT_Bitmap& bitmap = face->glyph->bitmap;
-        for (int y = 0; y < static_cast<int>(bitmap.rows); ++y) {
-            for (int x = 0; x < static_cast<int>(bitmap.width); ++x) {
-                const glm::ivec2 at(mask.advance + face->glyph->bitmap_left + x,
-                                    mask.baseline - face->glyph->bitmap_top + y);
+    font.forEachGlyph(line, [&](const Face::Glyph& glyph, int kerning) {
+        mask.advance += kerning;
+        if (!glyph.drawn) return;
+        for (int y = 0; y < glyph.size.y; ++y) {
+            for (int x = 0; x < glyph.size.x; ++x) {
+                const glm::ivec2 at(mask.advance + glyph.offset.x + x, mask.baseline - glyph.offset.y + y);
                 if (at.x < 0 || at.y < 0 || at.x >= mask.size.x || at.y >= mask.size.y) continue;
                 unsigned char& to =
                     mask.coverage[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(mask.size.x) +
                                   static_cast<std::size_t>(at.x)];
-                to = std::max(to, bitmap.buffer[y * bitmap.pitch + x]);
+                to = std::max(to, glyph.coverage[static_cast<std::size_t>(y * glyph.size.x + x)]);
             }
         }
-        mask.advance += static_cast<int>(face->glyph->advance.x >> 6);
-    }
+        mask.advance += glyph.advance;
+    });
     return mask;
 }
 
 int Typesetter::width(const std::string& line, int fontPixels) {
-    FT_Face face = face_->face;
-    FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(std::max(1, fontPixels)));
+    const std::lock_guard lock(mutex_);
     int advance = 0;
-    FT_UInt previous = 0;
-    for (const char32_t character : charactersOf(line)) {
-        const FT_UInt glyph = FT_Get_Char_Index(face, character);
-        FT_Vector kerning{0, 0};
-        if (previous != 0) FT_Get_Kerning(face, previous, glyph, FT_KERNING_DEFAULT, &kerning);
-        previous = glyph;
-        if (FT_Load_Glyph(face, glyph, FT_LOAD_DEFAULT) != 0) continue;
-        advance += static_cast<int>(kerning.x >> 6) + static_cast<int>(face->glyph->advance.x >> 6);
-    }
+    face(fontPixels).forEachGlyph(line, [&](const Face::Glyph& glyph, int kerning) {
+        if (glyph.drawn) advance += kerning + glyph.advance;
+    });
     return advance;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -22,22 +23,27 @@ struct TextMask {
     std::vector<unsigned char> coverage; ///< size.x * size.y, top row first
 };
 
-/// Not thread-safe.
+/// Thread-safe. Keeps the letters that it has drawn: hinting them costs more than all the rest of a small
+/// picture.
 class Typesetter {
 public:
-    /// Throws Unsupported as pictureFont, or if the font cannot be read.
+    /// Opens no font yet: pictures without text need none.
     Typesetter();
     ~Typesetter();
     Typesetter(const Typesetter&) = delete;
     Typesetter& operator=(const Typesetter&) = delete;
 
     /// \param line  UTF-8; bytes that are not become U+FFFD
+    /// Throws Unsupported as pictureFont, or if the font cannot be read.
     [[nodiscard]] TextMask set(const std::string& line, int fontPixels);
-    /// Pixels from the first letter's beginning to the last one's end.
+    /// Pixels from the first letter's beginning to the last one's end. Throws as set.
     [[nodiscard]] int width(const std::string& line, int fontPixels);
 
 private:
-    struct Face;
+    class Face;
+    [[nodiscard]] Face& face(int fontPixels);
+
+    std::mutex mutex_;
     std::unique_ptr<Face> face_;
 };
 

@@ -101,7 +101,8 @@ TEST(ImageFile, UnknownEndingsAreRefused) {
 }
 
 TEST(Canvas, ACentredParagraphIsWrappedAndStandsInTheMiddle) {
-    Canvas canvas({80, 120}, {0, 0, 0, 1});
+    Typesetter typesetter;
+    Canvas canvas({80, 120}, {0, 0, 0, 1}, typesetter);
     canvas.paragraph({{0, 0}, {80, 120}}, "induced by the vacancy", 12, {1, 1, 1, 1}, TextAlign::Centre);
     const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
     std::vector<int> rows;
@@ -121,7 +122,8 @@ TEST(Canvas, ACentredParagraphIsWrappedAndStandsInTheMiddle) {
 }
 
 TEST(Canvas, PicturesAndBoxesStandWhereTheyArePut) {
-    Canvas canvas({10, 6}, {0, 0, 0, 1});
+    Typesetter typesetter;
+    Canvas canvas({10, 6}, {0, 0, 0, 1}, typesetter);
     canvas.put(picture(255), {1, 1});
     canvas.fill({{0, 0}, {1, 6}}, {1, 1, 1, 0.5F});
     const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
@@ -133,13 +135,34 @@ TEST(Canvas, PicturesAndBoxesStandWhereTheyArePut) {
     EXPECT_NO_THROW(canvas.put(picture(255), {-5, 4})) << "what hangs over is cut off";
 }
 
+TEST(Canvas, EveryByteAndEveryTieIsRounded) {
+    TilePixels ties;
+    TilePixels bytes;
+    ties.size = {511, 1};
+    bytes.size = {256, 1};
+    for (int half = 0; half <= 510; ++half)
+        for (int channel = 0; channel < 4; ++channel)
+            ties.rgba32f.push_back(static_cast<float>(half) / 510.0F);
+    for (int byte = 0; byte < 256; ++byte)
+        bytes.rgba8.insert(bytes.rgba8.end(), 4, static_cast<unsigned char>(byte));
+    Typesetter typesetter;
+    Canvas canvas({511, 2}, {0, 0, 0, 1}, typesetter);
+    canvas.put(ties, {0, 0});
+    canvas.put(bytes, {0, 1});
+    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
+    for (std::size_t i = 0; i < ties.rgba32f.size(); ++i)
+        EXPECT_EQ(pixels.rgba8[i], std::lround(ties.rgba32f[i] * 255.0F)) << i;
+    EXPECT_TRUE(std::equal(bytes.rgba8.begin(), bytes.rgba8.end(), pixels.rgba8.begin() + 4 * 511));
+}
+
 TEST(Canvas, TextLeavesInkAndIsShortenedToItsWidth) {
     try {
         static_cast<void>(pictureFont());
     } catch (const Unsupported&) {
         GTEST_SKIP() << "no font on this machine";
     }
-    Canvas canvas({200, 40}, {0, 0, 0, 1});
+    Typesetter typesetter;
+    Canvas canvas({200, 40}, {0, 0, 0, 1}, typesetter);
     EXPECT_GT(canvas.textWidth("a long line of text", 14), canvas.textWidth("a long", 14));
     canvas.text({10, 20}, TextAlign::Left, "a line that is far too long for the place it has got", 14,
                 {1, 1, 1, 1}, 100);
@@ -163,6 +186,10 @@ TEST(Typesetter, KnowsLettersBeyondAscii) {
         EXPECT_NE(angstrom, setter.set("A", 20).coverage);
         EXPECT_NE(angstrom, setter.set("\xff", 20).coverage);
         EXPECT_EQ(setter.width("ÅÅ", 20), 2 * setter.width("Å", 20));
+        // Letters that were kept, also over another size, are the ones that are drawn at first.
+        EXPECT_NE(setter.set("Å", 12).size, setter.set("Å", 20).size);
+        EXPECT_EQ(setter.set("Å", 20).coverage, angstrom);
+        EXPECT_EQ(Typesetter().set("Å", 12).coverage, setter.set("Å", 12).coverage);
     } catch (const Unsupported&) {
         GTEST_SKIP() << "no font on this machine";
     }
