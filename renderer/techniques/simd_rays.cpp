@@ -1,12 +1,12 @@
 #if VOXSHEET_SIMD
 #include "techniques/simd_rays.h"
 
+#include "base/thread_count.h"
 #include "stages/gradient_frame.h"
 #include "stages/layer_stage.h"
 #include "stages/preintegration.h"
 #include "techniques/isosurface/surface_texels.h"
 #include "techniques/raycast/raycast.h"
-#include "volume/parallel_for.h"
 
 #include <algorithm>
 #include <span>
@@ -153,7 +153,7 @@ const std::vector<glm::vec4>& cached(Cache& cache, const std::shared_ptr<const T
 
 } // namespace
 
-SimdRays::SimdRays() : tables_(kCachedTables), integrals_(kCachedTables) {}
+SimdRays::SimdRays() : tables_(kCachedTables), integrals_(kCachedTables), team_(threadCount().threads - 1) {}
 
 const std::vector<glm::vec4>& SimdRays::tableOf(const std::shared_ptr<const TransferTable>& table) {
     return cached(tables_, table, shaderTable);
@@ -277,7 +277,7 @@ void SimdRays::drawOnHost(SharedStages& stages, const DrawRequest& request, std:
     if (request.volumes.solids != nullptr) readSolids(request);
     const auto job = jobFor(stages, request, pixels);
     const auto kernel = kernelOf(request.tile.technique);
-    parallelFor((rows.end - rows.first + kRowsPerTask - 1) / kRowsPerTask, 1, [&](long begin, long end) {
+    team_.run((rows.end - rows.first + kRowsPerTask - 1) / kRowsPerTask, 1, [&](long begin, long end) {
         const auto rowOf = [&](long task) { return rows.first + static_cast<int>(task) * kRowsPerTask; };
         kernel(job, rowOf(begin), std::min(rowOf(end), rows.end));
     });

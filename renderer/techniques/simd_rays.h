@@ -5,6 +5,7 @@
 #include "simd/kernels.h"
 #include "stages/recent_cache.h"
 #include "stages/shared_stages.h"
+#include "volume/thread_team.h"
 
 #include <memory>
 #include <vector>
@@ -35,6 +36,7 @@ private:
     Tables integrals_;
     std::vector<float> pixels_; ///< rgba
     std::vector<float> solids_; ///< the same of DrawVolumes::solids
+    ThreadTeam team_;
 };
 
 } // namespace voxsheet
