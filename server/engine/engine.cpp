@@ -190,6 +190,10 @@ PreparedTile Engine::atLevel(PreparedTile tile, int level) const {
     return implementation_->tiles.atLevel(std::move(tile), level);
 }
 
+PreparedTile Engine::atQuality(const PreparedTile& tile, const TileQuality& quality) const {
+    return implementation_->tiles.atQuality(tile, quality);
+}
+
 std::future<FrameResult> Engine::render(FrameSpec frame, FramePriority priority,
                                         std::function<bool()> cancelled) const {
     return implementation_->render(std::move(frame), priority, std::move(cancelled));

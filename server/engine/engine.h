@@ -118,6 +118,8 @@ struct TileQuality {
     bool crosshair = false;
 };
 
+struct CellLook;
+
 /// One cell made ready to draw: everything that decides its pixels, and the identity of those pixels.
 struct PreparedTile {
     sheet::Address cell;
@@ -128,8 +130,9 @@ struct PreparedTile {
     std::string note;      ///< with `spec`: what a user should know about the picture; empty: nothing
     double progress = 1.0; ///< < 1 while the source is being imported or computed
     LevelNeeds needs;      ///< with `spec` only
-    int colourVolumeLevels = 1;   ///< of the volume that colours isosurfaces, if there is one
-    std::vector<int> layerLevels; ///< of the volumes blended with the cell's own
+    int colourVolumeLevels = 1;           ///< of the volume that colours isosurfaces, if there is one
+    std::vector<int> layerLevels;         ///< of the volumes blended with the cell's own
+    std::shared_ptr<const CellLook> look; ///< with `spec`: what Engine::atQuality draws again
 };
 
 /// Which of a cell's values: all of the shown time step, of all steps, or those within the picture (as
@@ -255,6 +258,9 @@ public:
                                            const TileQuality& quality) const;
     /// The same tile at another level of detail, clamped to those there are. It must have a spec.
     [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
+    /// The same tile as prepareTile gives it at another quality of the same `live`, without working out anew
+    /// what the styles of the cell come to. It must have a spec.
+    [[nodiscard]] PreparedTile atQuality(const PreparedTile& tile, const TileQuality& quality) const;
     [[nodiscard]] std::future<FrameResult> render(FrameSpec frame, FramePriority priority,
                                                   std::function<bool()> cancelled = {}) const;
     /// What a viewer (a page, by any name of its own) looks at, and what it may look at next; replaces what

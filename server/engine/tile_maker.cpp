@@ -321,9 +321,10 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
     if (content.state == CellState::Pending) tile.progress = 0.0;
     if (content.state == CellState::Ready) {
         try {
-            CellLook shown = look(workbook, sheetIndex, cell, view, contents);
-            if (!quality.live && !view.request.contains("level")) shown.resolved.style.level.reset();
-            draw(tile, shown, quality);
+            auto shown = std::make_shared<CellLook>(look(workbook, sheetIndex, cell, view, contents));
+            if (!quality.live && !view.request.contains("level")) shown->resolved.style.level.reset();
+            draw(tile, *shown, quality);
+            tile.look = std::move(shown);
         } catch (const InvalidInput& error) {
             if (!view.request.empty()) throw;
             tile.code = codeOf(error);
@@ -339,6 +340,14 @@ PreparedTile TileMaker::prepare(const sheet::Workbook& workbook, std::size_t she
                          std::to_string(quality.sizePixels.x) + "x" + std::to_string(quality.sizePixels.y));
     }
     return tile;
+}
+
+PreparedTile TileMaker::atQuality(const PreparedTile& tile, const TileQuality& quality) {
+    PreparedTile other;
+    other.cell = tile.cell;
+    other.look = tile.look;
+    draw(other, *tile.look, quality);
+    return other;
 }
 
 std::shared_ptr<const TransferTable> TileMaker::tableOf(const std::optional<LabelTable>& labels,

@@ -97,6 +97,8 @@ public:
                                                    const std::shared_ptr<const CellContents>& contents);
     /// As Engine::atLevel.
     [[nodiscard]] PreparedTile atLevel(PreparedTile tile, int level) const;
+    /// As Engine::atQuality.
+    [[nodiscard]] PreparedTile atQuality(const PreparedTile& tile, const TileQuality& quality);
 
 private:
     /// Of all cells of the sheet that show the same quantity in the same unit and whose own range.mode is

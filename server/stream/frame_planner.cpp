@@ -67,7 +67,7 @@ FramePlan FramePlanner::plan(const ClientView& view, bool interactive) {
     // What is quick enough at full quality, and no gesture, needs no picture before the final one.
     if (!view.moving && quality_.fitsAtFullQuality(plan.pixels)) plan.interactive = false;
     if (plan.interactive)
-        reduceQuality(*workbook, view, plan);
+        reduceQuality(plan);
     else
         keepChunk(plan);
     return plan;
@@ -202,7 +202,7 @@ void FramePlanner::keepChunk(FramePlan& plan) const {
     plan.tiles.resize(count);
 }
 
-void FramePlanner::reduceQuality(const sheet::Workbook& workbook, const ClientView& view, FramePlan& plan) {
+void FramePlanner::reduceQuality(FramePlan& plan) {
     plan.step = quality_.choose(plan.pixels);
     engine::TileQuality reduced;
     reduced.live = true;
@@ -212,8 +212,7 @@ void FramePlanner::reduceQuality(const sheet::Workbook& workbook, const ClientVi
         if (tile.image) return false; // the final picture is at hand: nothing is faster
         reduced.sizePixels = scaled(tile.tile.sizePixels, kQualitySteps[plan.step].scale);
         const int level = tile.prepared.spec->level;
-        tile.prepared = engine_.prepareTile(workbook, sheet_, tile.tile.cell, view.overrides, reduced);
-        if (!tile.prepared.spec) return true;
+        tile.prepared = engine_.atQuality(tile.prepared, reduced);
         tile.prepared = engine_.atLevel(std::move(tile.prepared), level);
         return isShown(tile.tile.cell, tile.prepared.identity, false);
     });

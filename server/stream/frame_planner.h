@@ -91,7 +91,7 @@ private:
     void addNeighbours(const sheet::Workbook& workbook, const ClientView& view,
                        std::vector<WantedVolume>& volumes) const;
     void keepChunk(FramePlan& plan) const;
-    void reduceQuality(const sheet::Workbook& workbook, const ClientView& view, FramePlan& plan);
+    void reduceQuality(FramePlan& plan);
     [[nodiscard]] bool isShown(const sheet::Address& cell, const std::string& identity, bool final) const;
 
     const std::string viewer_;
