@@ -63,6 +63,27 @@ test("files are opened from the server's folders, with a look at the header firs
     await settled(page, [await cellWith("later.nrrd")]);
 });
 
+test("a page that is opened while the workbook is edited shows the edited one", async () => {
+    const late = await openPage(browser, "about:blank");
+    let answered = false;
+    await late.route("**/api/v1/state*", async (route) => {
+        const response = await route.fetch();
+        if (!answered) {
+            answered = true;
+            await page.evaluate(async () => {
+                await window.voxsheet.app.undo();
+                await window.voxsheet.app.redo();
+            });
+        }
+        await route.fulfill({ response });
+    });
+    await late.goto(server.url);
+    await settled(late, ["A1"]);
+    const version = (of) => of.evaluate(() => window.voxsheet.store.get().book.book.version);
+    assert.equal(await version(late), await version(page));
+    await late.context().close();
+});
+
 test("a removed dataset leaves the list", async () => {
     await page.locator('[data-dataset="broken.nrrd"]').hover();
     await page.getByLabel("Remove broken.nrrd").click();

@@ -7,6 +7,7 @@ import { lookFromText, viewOverrides } from "../model/look";
 import { newAppStore, type AppStore } from "../state/app_state";
 import { cellOf, currentSheet } from "../state/book";
 import type { StreamRest, StreamStatus } from "../state/connection";
+import { isMoving } from "../state/page";
 import type { TileInfo } from "../state/tiles";
 import type { StreamMessage } from "../stream/frame_decoder";
 import { StreamClient } from "../stream/stream_client";
@@ -18,6 +19,7 @@ import { DatasetActions } from "./dataset_actions";
 import { GridActions } from "./grid_actions";
 import { LevelActions } from "./level_actions";
 import { Notices } from "./notices";
+import { Pace } from "./pace";
 import { PlaneActions } from "./plane_actions";
 import { RangeActions } from "./range_actions";
 import { ServerSync } from "./server_sync";
@@ -48,8 +50,11 @@ export class App {
         },
     });
 
+    private readonly latency = new Pace<number>((ms) => this.store.dispatch({ type: "connection/latency", ms }));
+    private readonly status = new Pace<StreamStatus>((status) => this.store.dispatch({ type: "connection/status", status }));
+
     readonly sender: ViewSender = new ViewSender(() => this.viewBody(), {
-        answered: (ms) => this.store.dispatch({ type: "connection/latency", ms }),
+        answered: (ms) => this.latency.offer(ms),
         failed: () => this.client.reconnectNow(),
         rejected: (detail) => this.notices.error(detail),
     });
@@ -87,7 +92,18 @@ export class App {
 
     constructor() {
         this.readAddress();
-        this.store.subscribe(() => this.sender.touch());
+        this.followView();
+    }
+
+    /** Sends the view when what it is made of changes: every touch costs an animation frame. */
+    private followView(): void {
+        let before = this.store.get();
+        this.store.subscribe(() => {
+            const now = this.store.get();
+            const changed = now.page !== before.page || now.book !== before.book || now.levels !== before.levels;
+            before = now;
+            if (changed) this.sender.touch();
+        });
     }
 
     /** Loads what the page needs and opens the stream; goes on trying while the server does not answer. */
@@ -152,7 +168,7 @@ export class App {
         const { header } = message;
         switch (header.type) {
             case "hello":
-                this.opened(String(header["stream"]));
+                this.opened(String(header["stream"]), Number(header["version"]));
                 break;
             case "workbook":
                 void this.sync.book.request().then(() => this.followSheet());
@@ -170,9 +186,10 @@ export class App {
                 this.painter.cell(message);
                 break;
             case "status":
-                this.store.dispatch({ type: "connection/status", status: header as unknown as StreamStatus });
+                this.status.offer(header as unknown as StreamStatus);
                 break;
             case "rest":
+                this.status.flush();
                 this.levels.rested();
                 this.painter.whenPainted(() =>
                     this.store.dispatch({ type: "connection/rest", rest: header as unknown as StreamRest }),
@@ -184,12 +201,16 @@ export class App {
         }
     }
 
-    private opened(stream: string): void {
+    private opened(stream: string, version: number): void {
         const again = this.store.get().connection.openings > 0;
         this.painter.streamOpened();
         this.sender.open(stream);
         this.store.dispatch({ type: "connection/phase", phase: "live" });
-        if (!again) return;
+        if (!again) {
+            // Edited after the page has asked for the workbook: nothing else will tell.
+            if (version !== this.store.get().book.book?.version) void this.sync.book.request();
+            return;
+        }
         // The server may have been restarted, with other data or another version.
         void this.notices.attempt(() => this.sync.loadAbout());
         void this.sync.book.request();
@@ -211,7 +232,7 @@ export class App {
         const sheet = currentSheet(book);
         const { style, cells } = viewOverrides(page.look, sheet, page.live);
         return {
-            moving: page.moving || Object.keys(page.live).length > 0,
+            moving: isMoving(page),
             tiles: this.sizes.visibleTiles(formatAddress(page.selection.active)),
             // What is looked at keeps its full resolution longest.
             focus: page.enlarged ?? levels.hovered ?? formatAddress(page.selection.active),

@@ -42,6 +42,11 @@ export interface PageSlice {
     playing: boolean;
 }
 
+/** Something follows the pointer: the camera, or a value that is being dragged. */
+export function isMoving(page: PageSlice): boolean {
+    return page.moving || Object.keys(page.live).length > 0;
+}
+
 export const newPage: PageSlice = {
     selection: firstCell,
     scope: "sheet",

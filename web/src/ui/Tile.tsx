@@ -9,6 +9,7 @@ import { hasOwnCamera } from "../model/look";
 import { isPlane } from "../model/plane_view";
 import { isSelected, selectCell } from "../model/selection";
 import { cellOf, cellTitle, currentSheet } from "../state/book";
+import { isMoving } from "../state/page";
 import { newTile, type TileInfo } from "../state/tiles";
 import { useApp, useSelect } from "./app_context";
 import { ClipHandles } from "./clip/ClipHandles";
@@ -62,6 +63,12 @@ function TileProgress({ progress, label }: { progress: number; label: string }) 
 
 function pictureKeys(cell: CellState | undefined): string {
     return isPlane(cell) ? "Arrow keys move it, brackets step through the volume" : "Arrow keys turn it";
+}
+
+/** Not while people drag: they know, and a layer for the bar of each of many cells slows all their pictures down. */
+function Refining() {
+    const moving = useSelect((state) => isMoving(state.page));
+    return moving ? null : <div class="refining" aria-hidden="true" />;
 }
 
 function ProbeChip({ cell }: { cell: string }) {
@@ -187,7 +194,7 @@ export function Tile({ address, cramped }: { address: Address; cramped: boolean 
                 onDblClick={() => drawn && view.enlarge(enlarged ? null : name)}
             >
                 <canvas ref={canvas} class={drawn && tile.painted ? "" : "blank"} width={1} height={1} />
-                {drawn && !tile.final && <div class="refining" aria-hidden="true" />}
+                {drawn && !tile.final && <Refining />}
                 {drawn && tile.painted && marked && <OrientationMarks cell={name} />}
                 {drawn && tile.painted && <CrosshairLines cell={name} />}
                 {drawn && tile.painted && marked && <ColourBar cell={name} />}
