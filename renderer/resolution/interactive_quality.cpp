@@ -12,27 +12,34 @@ constexpr double kKept = 1.3;        ///< and kept
 
 } // namespace
 
+double InteractiveQuality::Cost::typical() const {
+    auto sorted = msPerPixel;
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(count, kMeasurements));
+    std::sort(sorted.begin(), end);
+    return count == 0 ? 0.0 : sorted[isSure() ? kMeasurements / 2 : 0];
+}
+
 void InteractiveQuality::measured(double fullPixels, int step, double frameMs) {
     if (fullPixels <= 0.0 || frameMs <= 0.0) return;
     for (auto& cost : costs_)
-        if (++cost.age > kBelievedFrames) cost.msPerPixel = 0.0;
+        if (++cost.age > kBelievedFrames) cost.count = 0;
     auto& cost = costs_.at(static_cast<std::size_t>(step));
-    const double measured = frameMs / fullPixels;
-    cost.msPerPixel = cost.msPerPixel == 0.0 ? measured : 0.7 * cost.msPerPixel + 0.3 * measured;
+    cost.msPerPixel[cost.count++ % kMeasurements] = frameMs / fullPixels;
     cost.age = 0;
     last_ = step;
 }
 
 double InteractiveQuality::predictedMs(double fullPixels, int step) const {
     if (last_ < 0) return 0.0;
-    const double known = costs_.at(static_cast<std::size_t>(step)).msPerPixel;
-    if (known > 0.0) return known * fullPixels;
+    const double known = costOf(step).typical() * fullPixels;
+    if (costOf(step).isSure()) return known;
     const double ratio = kQualitySteps[step].relativeWork() / kQualitySteps[last_].relativeWork();
-    return costs_.at(static_cast<std::size_t>(last_)).msPerPixel * fullPixels * (0.5 + 0.5 * ratio);
+    const double extrapolated = costOf(last_).typical() * fullPixels * (0.5 + 0.5 * ratio);
+    return known > 0.0 ? std::min(known, extrapolated) : extrapolated;
 }
 
 bool InteractiveQuality::fitsAtFullQuality(double fullPixels) const {
-    const double known = costs_.front().msPerPixel;
+    const double known = costs_.front().typical();
     return known > 0.0 && known * fullPixels <= budgetMs_;
 }
 
@@ -49,10 +56,9 @@ int InteractiveQuality::choose(double fullPixels) {
 int InteractiveQuality::finestOfTheCheap(double fullPixels) const {
     double least = predictedMs(fullPixels, step_);
     for (int step = 0; step < step_; ++step)
-        if (costs_.at(static_cast<std::size_t>(step)).msPerPixel > 0.0)
-            least = std::min(least, predictedMs(fullPixels, step));
+        if (costOf(step).count > 0) least = std::min(least, predictedMs(fullPixels, step));
     for (int step = 0; step < step_; ++step) {
-        const double known = costs_.at(static_cast<std::size_t>(step)).msPerPixel * fullPixels;
+        const double known = costOf(step).typical() * fullPixels;
         if (known > 0.0 && known <= (step == last_ ? kKept : kWorthwhile) * least) return step;
     }
     return step_;

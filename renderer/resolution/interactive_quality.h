@@ -23,13 +23,15 @@ inline constexpr int kQualityStepCount = static_cast<int>(sizeof(kQualitySteps) 
 
 /// Learns what frames cost at the steps that were drawn and picks the step for the next one.
 ///
-/// Per step: an exponential mean (weight 0.3) of ms per tile pixel, believed for the next 240 frames. A step
-/// without one is extrapolated from the step measured last, taking half of its time as fixed: t (1/2 + work
-/// ratio / 2). So a finer step is tried when there is room, and what it really costs is remembered. A finer
-/// step is taken only when its prediction stays below 75 % of the budget (hysteresis), a coarser one as soon
-/// as the current step's prediction exceeds the budget. Where no step fits, as with very many tiny tiles,
-/// whose times hardly depend on their pixels, coarse pictures would be for nothing: the finest measured step
-/// counts that costs at most 15 % more than the cheapest (30 % while it is drawn).
+/// Per step: the median of ms per tile pixel in its last five frames, believed for the next 240 frames. A
+/// step without any is extrapolated from the step measured last, taking half of its time as fixed: t (1/2 +
+/// work ratio / 2); so is one with fewer than five, unless one of them was quicker: first frames make what
+/// later ones find ready, and a busy machine holds up any. So a finer step is tried when there is room, and
+/// what it really costs is remembered. A finer step is taken only when its prediction stays below 75 % of the
+/// budget (hysteresis), a coarser one as soon as the current step's prediction exceeds the budget. Where no
+/// step fits, as with very many tiny tiles, whose times hardly depend on their pixels, coarse pictures would
+/// be for nothing: the finest measured step counts that costs at most 15 % more than the cheapest (30 % while
+/// it is drawn).
 class InteractiveQuality {
 public:
     /// \param budgetMs wanted time per frame, > 0
@@ -50,10 +52,18 @@ private:
     /// When even `step_`, the coarsest, does not fit.
     [[nodiscard]] int finestOfTheCheap(double fullPixels) const;
 
+    static constexpr std::size_t kMeasurements = 5;
+
     struct Cost {
-        double msPerPixel = 0.0; ///< 0: not known
-        int age = 0;             ///< frames since it was measured
+        std::array<double, kMeasurements> msPerPixel{}; ///< of the last frames, the oldest overwritten next
+        std::size_t count = 0;                          ///< of frames; 0: not known
+        int age = 0;                                    ///< frames since it was measured
+
+        [[nodiscard]] bool isSure() const { return count >= kMeasurements; }
+        /// Their median when sure, else the least of them; 0: not known.
+        [[nodiscard]] double typical() const;
     };
+    [[nodiscard]] const Cost& costOf(int step) const { return costs_.at(static_cast<std::size_t>(step)); }
     double budgetMs_;
     std::array<Cost, static_cast<std::size_t>(kQualityStepCount)> costs_{};
     int last_ = -1; ///< step measured last

@@ -94,6 +94,32 @@ TEST(InteractiveQuality, CoarseStepsThatSaveMuchAreDrawnEvenBeyondTheBudget) {
     EXPECT_EQ(step, kQualityStepCount - 1);
 }
 
+TEST(InteractiveQuality, SlowFirstFramesAreNotTheCostOfTheirStep) {
+    // Even the coarsest step is above the budget, but takes a quarter of the time. Its first frames make what
+    // all later ones find ready.
+    InteractiveQuality quality(50.0);
+    const auto costs = [](int step) { return 60.0 + 180.0 * kQualitySteps[step].relativeWork(); };
+    for (int frame = 0; frame < 3; ++frame)
+        quality.measured(1000e3, 0, costs(0));
+    for (int frame = 0; frame < 20; ++frame) {
+        const int step = quality.choose(1000e3);
+        quality.measured(1000e3, step, frame < 2 ? 600.0 : costs(step));
+    }
+    EXPECT_EQ(quality.choose(1000e3), kQualityStepCount - 1);
+}
+
+TEST(InteractiveQuality, OneHeldUpFrameChangesNothing) {
+    InteractiveQuality quality(50.0);
+    int step = quality.choose(600e3);
+    for (int frame = 0; frame < 60; ++frame) {
+        quality.measured(600e3, step, frame % 20 == 19 ? 200.0 : drawn(45.0 / 600e3, 600e3, step));
+        step = quality.choose(600e3);
+        if (frame > 10) {
+            EXPECT_EQ(step, 0) << frame;
+        }
+    }
+}
+
 TEST(InteractiveQuality, MorePixelsMeanACoarserStep) {
     InteractiveQuality quality(60.0);
     quality.measured(100e3, 0, 55.0);
