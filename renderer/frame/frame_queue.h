@@ -25,7 +25,8 @@ struct FrameJob {
     std::vector<bool> issued;                      ///< per tile: drawing has been queued
     std::vector<std::optional<TileLevels>> levels; ///< per tile, once it has been looked at
     std::size_t issuedCount = 0;
-    std::size_t finishedCount = 0; ///< tiles with pixels or an error
+    std::size_t finishedCount = 0; ///< tiles with pixels or an error, and absent ones
+    bool waitedForAbsent = false;  ///< a tile was left out after some waiting: the others wait no more
     bool settled = false;          ///< the promise has its value or exception
     std::optional<std::chrono::steady_clock::time_point> begun;
     std::chrono::steady_clock::duration broughtIn{}; ///< spent between its tiles on what it does not wait for

@@ -20,7 +20,8 @@ enum class PixelFormat {
 enum class LevelChoice {
     Exact,        ///< the one asked for: the tile waits for it, and fails when the budget cannot hold it
     WithinBudget, ///< likewise, but the finest level that the texture budget can hold
-    AtHand ///< the nearest one that is resident (a small one is brought in when none is): nothing waits
+    AtHand ///< the nearest one that is resident; a small one is brought in when none is, and the tile left
+           ///< out (TilePixels::absent) while that is read: nothing waits
 };
 
 struct FrameSpec {
@@ -38,7 +39,8 @@ struct TilePixels {
     std::vector<float> rgba32f;       ///< Rgba32F: size.x * size.y * 4, top row first
     int level = 0;                    ///< that was drawn
     bool standIn = false; ///< AtHand: something was drawn from another level, or without a gradient texture
-    bool awaited = false; ///< what the stand-in stands for is being brought in: ask again
+    bool awaited = false; ///< what the stand-in stands for, or what is absent, is being brought in: ask again
+    bool absent = false;  ///< AtHand: nothing is there yet to draw it from; there are no pixels
     std::string note;     ///< not empty: why a coarser level than asked for is as good as it gets
     /// GPU time of drawing and resolving, from timestamps; upload and readback not included. The host's time
     /// where the timestamps are impossible.

@@ -243,15 +243,20 @@ private:
     /// Draws the tile, or brings in some of what it needs.
     void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
         try {
+            const bool atHand = job->frame.levels == LevelChoice::AtHand;
+            const Deadline deadline = job->waitedForAbsent ? std::chrono::steady_clock::now() : sliceEnd();
             auto drawing = renderer_->begin(job->frame.tiles[tile], job->frame, levelsOf(*job, tile),
-                                            sliceEnd(), breaksOf(*job));
-            if (!drawing) {
+                                            deadline, breaksOf(*job));
+            if (!drawing && atHand) {
+                leaveOut(*job, tile);
+            } else if (!drawing) {
                 waiting_ = {job, tile};
                 publishState();
                 if (!inFlight_.empty()) finishOldest();
                 return;
+            } else {
+                keepDrawing({job, tile, std::move(drawing)});
             }
-            keepDrawing({job, tile, std::move(drawing)});
         } catch (const DeviceLost&) {
             throw;
         } catch (...) {
@@ -260,6 +265,17 @@ private:
         }
         if (job->frame.levels == LevelChoice::AtHand && !job->frame.checkTimers) bringInBetween(*job);
         publishAfterTile(*job);
+    }
+
+    /// Nothing of it is there to be drawn, nor was within a slice of time: one wait per frame.
+    static void leaveOut(FrameJob& job, std::size_t tile) {
+        TilePixels& pixels = job.result.tiles[tile];
+        pixels.size = job.frame.tiles[tile].sizePixels;
+        pixels.level = job.frame.tiles[tile].level;
+        pixels.absent = pixels.awaited = true;
+        job.waitedForAbsent = true;
+        markIssued(job, tile);
+        ++job.finishedCount;
     }
 
     /// What nothing is more urgent than, and what is timed, is drawn at one stretch.

@@ -98,7 +98,7 @@ void TileRenderer::bringIn(const TileSpec& tile, const TileLevels& levels, Deadl
 
 std::optional<TileVolumes> TileRenderer::acquire(const TileSpec& tile, LevelChoice choice,
                                                  const TileLevels& levels, Deadline deadline) {
-    if (choice == LevelChoice::AtHand) return techniques_.acquireAtHand(residency_, tile, levels);
+    if (choice == LevelChoice::AtHand) return techniques_.acquireAtHand(residency_, tile, levels, deadline);
     return techniques_.acquireBy(residency_, tile, levels, deadline);
 }
 

@@ -62,8 +62,8 @@ public:
     [[nodiscard]] bool isResident(const TileSpec& tile, const TileLevels& levels) const;
     /// Works until the deadline on what the tile needs; the tile itself is not drawn. Throws as begin.
     void bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline);
-    /// Makes the volumes resident and queues drawing, resolving and readback. Null when the deadline came
-    /// first: to be called again. Throws what the tile is at fault for.
+    /// Makes the volumes resident, or finds what is at hand of them, and queues drawing, resolving and
+    /// readback. Null when the deadline came first: to be called again. Throws what the tile is at fault for.
     [[nodiscard]] std::unique_ptr<TileInFlight> begin(const TileSpec& tile, const FrameSpec& frame,
                                                       const TileLevels& levels, Deadline deadline,
                                                       TileBreaks breaks = TileBreaks::None);

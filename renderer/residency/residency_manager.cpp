@@ -59,6 +59,7 @@ std::optional<VolumeLease> ResidencyManager::acquireBy(Deadline deadline, const 
                                                        TexelForm form, SamplesUse use) {
     const TextureKey textureKey{key, kindOf(form)};
     if (auto resident = leaseResident(textureKey, use)) return resident;
+    table_->throwIfFailed(textureKey);
     auto& pending = enqueueSamples(textureKey, form, use, WantedPriority::Visible);
     if (!advanceToLease(pending, deadline, nullptr)) return std::nullopt;
     return leaseResident(textureKey, use);
@@ -71,6 +72,7 @@ std::optional<VolumeLease> ResidencyManager::acquireGradientsBy(Deadline deadlin
     if (auto resident = leaseResident(textureKey, SamplesUse::Drawing)) return resident;
     const auto source = acquireBy(deadline, key, form);
     if (!source) return std::nullopt;
+    table_->throwIfFailed(textureKey);
     auto* pending = findPending(textureKey);
     if (pending == nullptr) {
         pending = &enqueue(std::make_unique<PendingTexture>(textureKey, source->volume().meta, build),
@@ -173,7 +175,9 @@ void ResidencyManager::setWanted(const std::vector<WantedVolume>& wanted) {
 
 bool ResidencyManager::request(const VolumeKey& key, TexelForm form, SamplesUse use) {
     if (isResident(key, form)) return true;
-    auto& pending = enqueueSamples({key, kindOf(form)}, form, use, WantedPriority::Visible);
+    const TextureKey textureKey{key, kindOf(form)};
+    if (table_->hasFailed(textureKey)) return false;
+    auto& pending = enqueueSamples(textureKey, form, use, WantedPriority::Visible);
     ++pending.asked;
     return keepIfRoom(pending);
 }
@@ -182,7 +186,7 @@ bool ResidencyManager::requestGradients(const VolumeKey& key, TexelForm form,
                                         const DerivedTextureBuilder& build) {
     const TextureKey textureKey{key, gradientsKind(form.floats)};
     if (table_->contains(textureKey)) return true;
-    if (!request(key, form)) return false;
+    if (table_->hasFailed(textureKey) || !request(key, form)) return false;
     auto* pending = findPending(textureKey);
     if (pending == nullptr) {
         pending =
@@ -219,7 +223,8 @@ void ResidencyManager::advanceInBackground(PendingTexture& pending, Deadline dea
         if (!pending.begun() && !beginInBackground(pending)) return dequeue(pending);
         if (pending.advance(deadline, *reader_, source ? &source->volume() : nullptr)) complete(pending);
     } catch (const std::exception& error) {
-        // The tile that needs it meets the same error and shows it.
+        // The tile that needs it shows the error.
+        table_->keepFailure(pending.key(), std::current_exception());
         logWarning("'" + pending.key().volume.dataset +
                    "' was not brought in ahead of time: " + error.what());
         dequeue(pending);

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] VolumeLease acquireGradients(const VolumeKey& key, TexelForm form,
                                                const DerivedTextureBuilder& build);
     /// As acquire and acquireGradients, but stops at the deadline, waiting for a disk or not: empty as long
-    /// as it must be called again.
+    /// as it must be called again. Throws, once, what bringing it in met in the background meanwhile.
     [[nodiscard]] std::optional<VolumeLease> acquireBy(Deadline deadline, const VolumeKey& key,
                                                        TexelForm form = {},
                                                        SamplesUse use = SamplesUse::Drawing);
@@ -82,12 +82,14 @@ public:
     /// does not know are left out.
     void setWanted(const std::vector<WantedVolume>& wanted);
     /// Queues an upload as wanted as what is visible. False when there is no room for it beside what is
-    /// visible: asking again is of no use until something changes. Throws NotFound as acquire.
+    /// visible, or it was tried and failed: asking again is of no use until something changes. Throws
+    /// NotFound as acquire.
     bool request(const VolumeKey& key, TexelForm form = {}, SamplesUse use = SamplesUse::Drawing);
     /// Likewise; waits in the queue for the volume's own samples, which are queued too.
     bool requestGradients(const VolumeKey& key, TexelForm form, const DerivedTextureBuilder& build);
     /// Works on the queue until the deadline, waiting for a disk if it has to. False when nothing is left to
-    /// do. An upload that fails, or finds no room, leaves the queue.
+    /// do. An upload that fails, or finds no room, leaves the queue; its error is kept for who acquires it
+    /// next, until other volumes are wanted.
     bool advance(Deadline deadline);
     [[nodiscard]] bool isIdle() const { return queue_.empty(); }
 

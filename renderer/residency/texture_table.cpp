@@ -61,9 +61,23 @@ void TextureTable::removeDataset(const std::string& dataset) {
         if (key.volume.dataset == dataset) gone.push_back(key);
     for (const auto& key : gone)
         remove(key);
+    std::erase_if(failures_, [&](const auto& failure) { return failure.first.volume.dataset == dataset; });
+}
+
+void TextureTable::keepFailure(const TextureKey& key, std::exception_ptr error) {
+    failures_[key] = std::move(error);
+}
+
+void TextureTable::throwIfFailed(const TextureKey& key) {
+    const auto failure = failures_.find(key);
+    if (failure == failures_.end()) return;
+    const auto error = failure->second;
+    failures_.erase(failure);
+    std::rethrow_exception(error);
 }
 
 void TextureTable::setWanted(const std::vector<WantedVolume>& wanted) {
+    failures_.clear();
     wanted_.clear();
     for (const auto& volume : wanted) {
         auto& priority = wanted_.try_emplace(volume.key, volume.priority).first->second;

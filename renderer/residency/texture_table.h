@@ -8,6 +8,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,6 +56,12 @@ public:
     void remove(const TextureKey& key);
     void removeDataset(const std::string& dataset);
 
+    /// What bringing a texture in ended with, until it is thrown or other volumes are wanted.
+    void keepFailure(const TextureKey& key, std::exception_ptr error);
+    [[nodiscard]] bool hasFailed(const TextureKey& key) const { return failures_.count(key) != 0; }
+    void throwIfFailed(const TextureKey& key); ///< once
+
+    /// What failed may be tried again.
     void setWanted(const std::vector<WantedVolume>& wanted);
     /// A level that is coarser than a wanted one stands in for it: it counts as wanted soon.
     [[nodiscard]] WantedPriority priority(const VolumeKey& key) const;
@@ -75,6 +82,7 @@ private:
 
     std::map<TextureKey, std::shared_ptr<TextureEntry>> entries_;
     std::map<VolumeKey, WantedPriority> wanted_;
+    std::map<TextureKey, std::exception_ptr> failures_;
     std::uint64_t bytes_ = 0;
     std::uint64_t clock_ = 0;
 };

@@ -158,10 +158,10 @@ std::optional<TileVolumes> TechniqueSet::acquireBy(ResidencyManager& residency, 
                          implementation_->gradientBuilder());
 }
 
-TileVolumes TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
-                                        const TileLevels& levels) {
+std::optional<TileVolumes> TechniqueSet::acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                                       const TileLevels& levels, Deadline deadline) {
     validate(tile);
-    return acquireTileAtHand(residency, tile, implementation_->paths, levels,
+    return acquireTileAtHand(residency, tile, implementation_->paths, levels, deadline,
                              implementation_->gradientBuilder());
 }
 

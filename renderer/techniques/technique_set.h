@@ -34,9 +34,10 @@ public:
     [[nodiscard]] std::optional<TileVolumes> acquireBy(ResidencyManager& residency, const TileSpec& tile,
                                                        const TileLevels& levels, Deadline deadline);
     /// What comes nearest to these levels and is resident (of a volume of which nothing is, a small level is
-    /// brought in at once); what is missing is queued for ResidencyManager::advance. Throws as acquire.
-    [[nodiscard]] TileVolumes acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
-                                            const TileLevels& levels);
+    /// brought in before the deadline: empty when that came first); what is missing is queued for
+    /// ResidencyManager::advance. Throws as acquire.
+    [[nodiscard]] std::optional<TileVolumes> acquireAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                                           const TileLevels& levels, Deadline deadline);
 
     /// Draws `tile` from `volumes` into `targetRgba32f`: a 2D RGBA32F texture of tile.sizePixels texels, row
     /// 0 at the bottom of the picture. Every texel of the rows is written and no other, with the bits that a

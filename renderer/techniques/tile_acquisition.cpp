@@ -60,7 +60,16 @@ struct LevelBytes {
     std::uint64_t bytes;
 };
 
-VolumeLease acquireSmallLevel(ResidencyManager& residency, const Part& part) {
+/// Empty while it is being read, to be asked for again. Where the budget has no room for it beside what is
+/// visible, it is waited for: others that are missing would push it out before it is asked for again.
+std::optional<VolumeLease> acquireRequested(ResidencyManager& residency, const Part& part,
+                                            Deadline deadline) {
+    const bool keepsItsRoom = residency.request(part.key, part.form, part.use);
+    return residency.acquireBy(keepsItsRoom ? deadline : Deadline::max(), part.key, part.form, part.use);
+}
+
+std::optional<VolumeLease> acquireSmallLevel(ResidencyManager& residency, const Part& part,
+                                             Deadline deadline) {
     const auto meta = residency.describe(part.key.dataset);
     VolumeKey key = part.key;
     while (key.level + 1 < meta->levels() &&
@@ -68,21 +77,23 @@ VolumeLease acquireSmallLevel(ResidencyManager& residency, const Part& part) {
         ++key.level;
     while (key.level + 1 < meta->levels() && residency.bytesOf(key, part.form) > residency.budgetBytes() / 4)
         ++key.level;
-    return residency.acquire(key, part.form, part.use);
+    return acquireRequested(residency, {key, part.form, part.use}, deadline);
 }
 
+/// Empty while nothing is there to stand in for it.
 /// \param awaited  set when the level itself is on its way
-VolumeLease acquireAtHand(ResidencyManager& residency, const Part& part, bool& awaited) {
-    if (auto exact = residency.acquireResident(part.key, part.form, part.use)) return std::move(*exact);
-    if (part.exactLevel) return residency.acquire(part.key, part.form, part.use);
+std::optional<VolumeLease> acquireAtHand(ResidencyManager& residency, const Part& part, Deadline deadline,
+                                         bool& awaited) {
+    if (auto exact = residency.acquireResident(part.key, part.form, part.use)) return exact;
+    if (part.exactLevel) return acquireRequested(residency, part, deadline);
     const auto atHand = [&] {
         VolumeKey key = part.key;
         if (const auto level = residency.nearestResidentLevel(part.key, part.form)) key.level = *level;
         auto lease = residency.acquireResident(key, part.form, part.use);
-        return lease ? std::move(*lease) : acquireSmallLevel(residency, part);
+        return lease ? std::move(lease) : acquireSmallLevel(residency, part, deadline);
     };
     auto lease = atHand();
-    if (lease.volume().level != part.key.level)
+    if (lease && lease->volume().level != part.key.level)
         awaited = residency.request(part.key, part.form, part.use) || awaited;
     return lease;
 }
@@ -187,11 +198,15 @@ std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const Tile
     return volumes;
 }
 
-TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile, const RenderPaths& paths,
-                              const TileLevels& levels, const DerivedTextureBuilder& buildGradients) {
+std::optional<TileVolumes> acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                             const RenderPaths& paths, const TileLevels& levels,
+                                             Deadline deadline, const DerivedTextureBuilder& buildGradients) {
     bool awaited = false;
+    const auto acquire = [&](const Part& part) { return acquireAtHand(residency, part, deadline, awaited); };
     const Part drawn = drawnPart(tile, paths, levels.volume);
-    TileVolumes volumes{acquireAtHand(residency, drawn, awaited), {}, {}, {}, {}, false, false};
+    auto volume = acquire(drawn);
+    if (!volume) return std::nullopt;
+    TileVolumes volumes{std::move(*volume), {}, {}, {}, {}, false, false};
     volumes.standIn = volumes.volume.volume().level != levels.volume;
     if (wantsGradientTexture(tile, paths)) {
         VolumeKey key = drawn.key;
@@ -204,16 +219,19 @@ TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
         }
     }
     if (const auto part = clipPart(tile, paths, levels.clipObject)) {
-        volumes.clipObject = acquireAtHand(residency, *part, awaited);
+        volumes.clipObject = acquire(*part);
+        if (!volumes.clipObject) return std::nullopt;
         volumes.standIn = volumes.standIn || volumes.clipObject->volume().level != levels.clipObject;
     }
     if (const auto part = colourPart(tile, paths, levels.colours)) {
-        volumes.colours = acquireAtHand(residency, *part, awaited);
+        volumes.colours = acquire(*part);
+        if (!volumes.colours) return std::nullopt;
         volumes.standIn = volumes.standIn || volumes.colours->volume().level != levels.colours;
     }
     for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i) {
-        volumes.layers.push_back(
-            acquireAtHand(residency, layerPart(tile, paths, i, levels.layers.at(i)), awaited));
+        auto layer = acquire(layerPart(tile, paths, i, levels.layers.at(i)));
+        if (!layer) return std::nullopt;
+        volumes.layers.push_back(std::move(*layer));
         volumes.standIn = volumes.standIn || volumes.layers.back().volume().level != levels.layers.at(i);
     }
     volumes.awaited = awaited;

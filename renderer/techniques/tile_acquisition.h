@@ -28,10 +28,11 @@ namespace voxsheet {
                                                        const DerivedTextureBuilder& buildGradients);
 
 /// What comes nearest to these levels and is resident; of a volume of which nothing is, a small level is
-/// brought in at once, and of categories their own one. What is missing is queued. Throws as
-/// ResidencyManager::acquire.
-[[nodiscard]] TileVolumes acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
-                                            const RenderPaths& paths, const TileLevels& levels,
-                                            const DerivedTextureBuilder& buildGradients);
+/// brought in before the deadline, and of categories their own one. Empty when that came first. What is
+/// missing is queued. Throws as ResidencyManager::acquire.
+[[nodiscard]] std::optional<TileVolumes> acquireTileAtHand(ResidencyManager& residency, const TileSpec& tile,
+                                                           const RenderPaths& paths, const TileLevels& levels,
+                                                           Deadline deadline,
+                                                           const DerivedTextureBuilder& buildGradients);
 
 } // namespace voxsheet

@@ -238,6 +238,10 @@ void FramePlanner::pictureSent(const PlannedTile& tile) {
         Shown{tile.image->awaited ? std::string{} : tile.prepared.identity, {}, tile.image->final};
 }
 
+void FramePlanner::failureSent(const PlannedTile& tile, bool final) {
+    shown_[tile.tile.cell] = Shown{tile.prepared.identity, cellState(tile.prepared), final};
+}
+
 void FramePlanner::stateSent(const engine::PreparedTile& tile) {
     shown_[tile.cell] = Shown{{}, cellState(tile), false};
 }

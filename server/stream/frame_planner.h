@@ -61,6 +61,8 @@ public:
     /// All tiles of the plan that were not at hand were drawn and encoded in `ms`.
     void frameDrawn(const FramePlan& plan, double pixels, double ms);
     void pictureSent(const PlannedTile& tile);
+    /// Drawing it failed, and the page was told: it is not tried again until it is to look different.
+    void failureSent(const PlannedTile& tile, bool final);
     void stateSent(const engine::PreparedTile& tile);
     /// Nothing is left to draw for the view of the last plan. True when some of its cells were redrawn since
     /// the last rest and what the others took is known: the time-N curve has a new point, and a rule may now

@@ -1,6 +1,7 @@
 #include "stream/stream_client.h"
 
 #include "base/thread_count.h"
+#include "stream/absent_tiles.h"
 #include "stream/message.h"
 #include "stream/tile_atlas.h"
 
@@ -19,6 +20,7 @@ constexpr auto kRestAfter = 150ms;     ///< no change for so long: final picture
 constexpr auto kPingAfter = 5s;        ///< silence that a ping breaks
 constexpr auto kDatasetsEvery = 250ms; ///< at most so often
 constexpr std::uint64_t kFramesInFlight = 2;
+constexpr auto kAskAbsentAgain = 10ms; ///< for volumes of which nothing is there yet
 /// Below so many pixels a second atlas, encoded and decoded beside the first, costs more than it saves.
 constexpr std::size_t kAtlasPixels = 200'000;
 
@@ -176,7 +178,8 @@ std::optional<std::string> StreamClient::next() {
             const bool finished = work.empty();
             const auto start = Clock::now();
             const bool drawn = finished || draw(work, view.id);
-            if (drawn && !finished) emit(work, view, milliseconds(Clock::now() - start));
+            const bool nothingThere = drawn && !finished && work.empty();
+            if (drawn && !work.empty()) emit(work, view, milliseconds(Clock::now() - start));
             // After a redraw of all cells a rule may change their level.
             const bool judgeAgain = finished && !interactive && planner_.rested();
             lock.lock();
@@ -185,6 +188,7 @@ std::optional<std::string> StreamClient::next() {
             if (!finished || judgeAgain) dirty_ = true;
             if (finished && !interactive && !judgeAgain)
                 push({{"type", "rest"}, {"view", view.id}, {"version", work.workbookVersion}});
+            if (nothingThere) wake_.wait_for(lock, kAskAbsentAgain, [this] { return closed_; });
             if (finished && interactive) {
                 wake_.wait_until(lock, lastChange_ + kRestAfter, [this] { return closed_ || dirty_; });
                 dirty_ = true;
@@ -222,6 +226,7 @@ bool StreamClient::draw(FramePlan& plan, std::uint64_t viewId) {
         if (error.kind() != ErrorKind::Cancelled) throw;
         return false;
     }
+    leaveOutAbsent(plan, drawnBy, frame);
     if (options_.atlas && plan.interactive)
         encodeAtlases(plan, drawnBy, frame);
     else
@@ -235,7 +240,7 @@ bool StreamClient::draw(FramePlan& plan, std::uint64_t viewId) {
         if (pending.image && pending.image->final && pending.image->note.empty())
             tiles_.remember(pending.image);
     }
-    planner_.frameDrawn(plan, pixels, milliseconds(Clock::now() - start));
+    if (!drawnBy.empty()) planner_.frameDrawn(plan, pixels, milliseconds(Clock::now() - start));
     return true;
 }
 
@@ -314,7 +319,6 @@ void StreamClient::emit(const FramePlan& plan, const ClientView& view, double fr
         json["message"] = tile.message;
         json["progress"] = tile.progress;
         push(json);
-        planner_.stateSent(tile);
     };
     FrameTiming timing{Clock::now(), frameMs, 0, 0, !plan.interactive};
     auto sent = [&](const PlannedTile& pending) {
@@ -322,13 +326,16 @@ void StreamClient::emit(const FramePlan& plan, const ClientView& view, double fr
         ++timing.tiles;
         timing.level = std::max(timing.level, pending.image->level);
     };
-    for (const auto& tile : plan.notices)
+    for (const auto& tile : plan.notices) {
         notice(tile);
+        planner_.stateSent(tile);
+    }
     for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
         const PlannedTile& pending = plan.tiles[i];
         if (inAtlas[i]) continue;
         if (!pending.image) {
             notice(pending.prepared);
+            planner_.failureSent(pending, !plan.interactive);
             continue;
         }
         auto json = header("tile");

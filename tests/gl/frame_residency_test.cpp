@@ -24,12 +24,21 @@ std::string nameOf(int i) { return "v" + std::to_string(i); }
 class SlowProvider : public MemoryVolumeProvider {
 public:
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override {
-        if (failing) throw IoError("the disk", "it gave nothing", "try again");
+        if (key.dataset == blocked) gate.wait(false);
+        if (failing || (failingLevel0 && key.level == 0))
+            throw IoError("the disk", "it gave nothing", "try again");
         if (key.level == 0) std::this_thread::sleep_for(delay.load());
         MemoryVolumeProvider::readSlices(key, zBegin, zCount, out);
     }
     std::atomic<std::chrono::milliseconds> delay{std::chrono::milliseconds(0)};
     std::atomic<bool> failing{false};
+    std::atomic<bool> failingLevel0{false};
+    std::string blocked; ///< a dataset whose reads end only when the gate is open
+    std::atomic<bool> gate{false};
+    void openGate() {
+        gate = true;
+        gate.notify_all();
+    }
 };
 
 class FrameResidency : public ::testing::Test {
@@ -65,16 +74,29 @@ protected:
                            FramePriority priority = FramePriority::Interactive) {
         return thread.submit(frameOf({tile}, levels), priority).get().tiles.at(0);
     }
+    /// The first picture: asks until there is one.
+    static TilePixels drawAtHand(RenderThread& thread, const TileSpec& tile) {
+        for (int frames = 1; frames < 2000; ++frames) {
+            auto pixels = draw(thread, tile, LevelChoice::AtHand);
+            if (!pixels.absent) return pixels;
+            EXPECT_TRUE(pixels.awaited);
+            EXPECT_TRUE(pixels.rgba8.empty());
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        ADD_FAILURE() << "it stays absent";
+        return {};
+    }
     /// Draws at hand until nothing stands in any more.
     static int framesUntilWhole(RenderThread& thread, const TileSpec& tile) {
         for (int frames = 1; frames < 2000; ++frames) {
-            const auto pixels = draw(thread, tile, LevelChoice::AtHand);
+            const auto pixels = drawAtHand(thread, tile);
             if (!pixels.standIn) return frames;
             EXPECT_TRUE(pixels.awaited);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return -1;
     }
+    void TearDown() override { provider_->openGate(); }
     std::shared_ptr<SlowProvider> provider_ = std::make_shared<SlowProvider>();
 };
 
@@ -85,7 +107,7 @@ TEST_F(FrameResidency, ATileIsDrawnFromASmallLevelUntilItsOwnIsThere) {
               [](int x, int y, int z) { return std::min(255.0, 1.0 * x + y + z); });
     RenderThread thread(provider_, {});
     const TileSpec large = frontTile("large", 2 * kDim, 255.0, kPixels);
-    const auto first = draw(thread, large, LevelChoice::AtHand);
+    const auto first = drawAtHand(thread, large);
     ASSERT_EQ(first.error, "");
     EXPECT_EQ(first.level, 1);
     EXPECT_TRUE(first.standIn);
@@ -119,7 +141,7 @@ TEST_F(FrameResidency, NothingStandsInForLabels) {
         RenderThread thread(provider_, {});
         EXPECT_EQ(framesUntilWhole(thread, each), 1);
         RenderThread fresh(provider_, {});
-        EXPECT_EQ(draw(fresh, each, LevelChoice::AtHand).rgba8, whole.rgba8);
+        EXPECT_EQ(drawAtHand(fresh, each).rgba8, whole.rgba8);
     }
     // A budget with room for their level 1 alone gives no picture of it.
     RenderThread tight(provider_, budget(kBytes));
@@ -131,7 +153,7 @@ TEST_F(FrameResidency, LightWithoutItsGradientTextureStandsInToo) {
     RenderThread thread(provider_, {});
     const auto exact = draw(thread, tile(0, true), LevelChoice::Exact);
     RenderThread fresh(provider_, {});
-    const auto first = draw(fresh, tile(0, true), LevelChoice::AtHand);
+    const auto first = drawAtHand(fresh, tile(0, true));
     ASSERT_EQ(first.error, "");
     EXPECT_TRUE(first.standIn);
     EXPECT_GT(framesUntilWhole(fresh, tile(0, true)), 0);
@@ -250,6 +272,62 @@ TEST_F(FrameResidency, AnUrgentFrameWaitsForNoDisk) {
     std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
                      times.end());
     EXPECT_LT(times[times.size() / 2], 100.0);
+}
+
+TEST_F(FrameResidency, ATileOfWhichNothingIsReadYetIsLeftOutAndTheOthersAreDrawn) {
+    provider_->blocked = nameOf(1);
+    RenderThread thread(provider_, {});
+    const auto expected = draw(thread, tile(0), LevelChoice::Exact);
+    const std::vector<TileSpec> tiles{tile(1), tile(0), tile(1, true)};
+    for (int frame = 0; frame < 3; ++frame) { // it would never come back if it waited
+        const auto drawn =
+            thread.submit(frameOf(tiles, LevelChoice::AtHand), FramePriority::Interactive).get();
+        for (const std::size_t missing : {0U, 2U}) {
+            EXPECT_TRUE(drawn.tiles[missing].absent);
+            EXPECT_TRUE(drawn.tiles[missing].awaited);
+            EXPECT_EQ(drawn.tiles[missing].error, "");
+            EXPECT_TRUE(drawn.tiles[missing].rgba8.empty());
+        }
+        EXPECT_FALSE(drawn.tiles[1].absent);
+        EXPECT_EQ(drawn.tiles[1].rgba8, expected.rgba8);
+    }
+    provider_->openGate();
+    EXPECT_EQ(drawAtHand(thread, tile(1)).rgba8, draw(thread, tile(1), LevelChoice::Exact).rgba8);
+}
+
+TEST_F(FrameResidency, WhatFailsWhileATileIsLeftOutIsTheTilesErrorOnce) {
+    provider_->blocked = nameOf(1);
+    RenderThread thread(provider_, {});
+    EXPECT_TRUE(draw(thread, tile(1), LevelChoice::AtHand).absent);
+    provider_->failing = true;
+    provider_->openGate();
+    for (int i = 0; i < 2000 && thread.residency().queuedUploads > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    provider_->failing = false;
+    const auto failed = draw(thread, tile(1), LevelChoice::AtHand);
+    EXPECT_FALSE(failed.absent);
+    EXPECT_NE(failed.error.find("disk"), std::string::npos) << failed.error;
+    EXPECT_EQ(drawAtHand(thread, tile(1)).error, "") << "it is asked for anew";
+}
+
+TEST_F(FrameResidency, NothingIsAwaitedOfALevelThatCannotBeRead) {
+    addVolume(*provider_, "large", glm::ivec3(2 * kDim), ScalarType::F32,
+              [](int x, int y, int z) { return std::min(255.0, 1.0 * x + y + z); });
+    const TileSpec large = frontTile("large", 2 * kDim, 255.0, kPixels);
+    RenderThread thread(provider_, {});
+    provider_->failingLevel0 = true;
+    TilePixels pixels = drawAtHand(thread, large);
+    for (int i = 0; i < 2000 && pixels.awaited; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        pixels = drawAtHand(thread, large);
+    }
+    EXPECT_EQ(pixels.error, "");
+    EXPECT_EQ(pixels.level, 1);
+    EXPECT_TRUE(pixels.standIn);
+    EXPECT_FALSE(pixels.awaited) << "asking again is of no use";
+    EXPECT_NE(draw(thread, large, LevelChoice::WithinBudget).error.find("disk"), std::string::npos);
+    provider_->failingLevel0 = false;
+    EXPECT_EQ(draw(thread, large, LevelChoice::WithinBudget).level, 0) << "and it may be tried again";
 }
 
 TEST_F(FrameResidency, AFailedReadIsTheTilesError) {

@@ -27,6 +27,7 @@ constexpr int kColumns = 5;
 /// What came until the stream said that it has nothing more to send.
 struct Received {
     std::vector<nlohmann::json> tiles;
+    std::vector<nlohmann::json> errors;
     double drawnPixels = 0.0;
     [[nodiscard]] std::set<std::string> cells() const {
         std::set<std::string> names;
@@ -113,6 +114,7 @@ protected:
             if (!bytes) break;
             const auto header = parseMessage(*bytes).header;
             const auto type = header.at("type").get<std::string>();
+            if (type == "cell" && header.at("state") == "error") received.errors.push_back(header);
             if (type == "tile") {
                 received.tiles.push_back(header);
                 received.drawnPixels += header.at("width").get<double>() * header.at("height").get<double>();
@@ -205,6 +207,41 @@ TEST_F(Stream, AMovingSheetComesInOnePictureToPagesThatAskForIt) {
     EXPECT_EQ(rest.cells().size(), 9U);
     for (const auto& tile : rest.tiles)
         EXPECT_EQ(tile.at("format"), "png");
+}
+
+TEST_F(Stream, AVolumeThatCannotBeReadIsToldAndTheOthersAreDrawn) {
+    openBalls(3);
+    fs::path samples;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "store"))
+        if (entry.path().filename() == "f0_s0.raw") samples = entry.path();
+    ASSERT_FALSE(samples.empty());
+    const auto whole = folder_ / "whole.raw";
+    fs::copy_file(samples, whole);
+    const auto id = hub_->open("Sheet1");
+    EXPECT_EQ(untilRest(id, view(3, 16)).cells().size(), 3U); // from coarse levels
+    LevelSettings finest;
+    finest.policy = LevelPolicy::Off;
+    choose(finest);
+    fs::resize_file(samples, 0);
+    auto moving = view(3, 96);
+    moving.moving = true;
+    hub_->update(id, {std::nullopt, moving});
+    const auto first = untilRest(id, view(3, 96, 50.0)); // it ends: what fails is not tried for ever
+    ASSERT_FALSE(first.errors.empty());
+    const auto failed = first.errors.front().at("cell").get<std::string>();
+    EXPECT_EQ(first.errors.front().at("code"), "#GPU!");
+    for (const auto& error : first.errors)
+        EXPECT_EQ(error.at("cell"), failed);
+    std::set<std::string> drawn;
+    for (const auto& tile : first.tiles)
+        if (tile.at("final").get<bool>()) drawn.insert(tile.at("cell").get<std::string>());
+    EXPECT_EQ(drawn.size(), 2U);
+    EXPECT_EQ(drawn.count(failed), 0U);
+    // Any other view tries again.
+    fs::copy_file(whole, samples, fs::copy_options::overwrite_existing);
+    const auto second = untilRest(id, view(3, 96, 70.0));
+    EXPECT_EQ(second.cells().size(), 3U);
+    EXPECT_TRUE(second.errors.empty());
 }
 
 TEST_F(Stream, OnlyVisibleCellsAreDrawn) {
