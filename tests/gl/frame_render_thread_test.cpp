@@ -87,6 +87,10 @@ TEST_F(RenderThreadTest, ALargeTileInBandsHasTheBitsOfTheWholeOne) {
             large.isosurface.surfaces = {{100.0, {0.2F, 0.6F, 0.9F, 0.5F}}};
             large.shading.enabled = shaded;
             large.clip.planes = {{glm::normalize(glm::dvec3(1.0, 0.3, -0.2)), 8.0}};
+            TileSpec small = large; // brings the volume in
+            small.sizePixels = glm::ivec2(16);
+            ASSERT_EQ(thread.submit(frameOf({small}), FramePriority::Interactive).get().tiles.at(0).error,
+                      "");
             const auto drawn = [&](FramePriority priority) {
                 int looks = 0; // before each band
                 auto result = thread.submit(frameOf({large}, PixelFormat::Rgba32F), priority, [&] {
