@@ -63,10 +63,10 @@ CellLook TileMaker::ownLook(const sheet::Workbook& workbook, std::size_t sheetIn
     sheet::requireConsistent(look.resolved.style);
     look.meta = contentAt(*contents, {sheetIndex, cell}).meta;
     if (!look.meta) throw InternalError("cell " + sheet::addressName(cell), "it has nothing to show");
+    look.frame = frameOf(look.resolved.style, workbook, sheetIndex, cell, view, contents);
     const std::string periodsNote = dropLinkedPeriods(look.resolved, look.meta->grid);
     const sheet::TypedStyle& style = look.resolved.style;
     look.shown = chooseField(style.field, style.timeStep, *look.meta);
-    look.frame = frame(workbook, sheetIndex, cell, view, contents);
     look.sharedRange = style.range.mode == sheet::RangeMode::Shared;
     const double path = boxPathUnitLengths(look.meta->grid);
     const auto summary = look.sharedRange ? sharedSummary(workbook, sheetIndex, cell, look, contents)
@@ -248,8 +248,15 @@ std::optional<CameraFrame> TileMaker::frame(const sheet::Workbook& workbook, std
                                             const sheet::Address& cell, const View& view,
                                             const std::shared_ptr<const CellContents>& contents) {
     const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
-    const sheet::TypedStyle style =
-        sheet::resolveStyle(keys_, sheet, cell, {view.all, view.cells, view.request}).style;
+    const auto resolved = sheet::resolveStyle(keys_, sheet, cell, {view.all, view.cells, view.request});
+    return frameOf(resolved.style, workbook, sheetIndex, cell, view, contents);
+}
+
+std::optional<CameraFrame> TileMaker::frameOf(const sheet::TypedStyle& style, const sheet::Workbook& workbook,
+                                              std::size_t sheetIndex, const sheet::Address& cell,
+                                              const View& view,
+                                              const std::shared_ptr<const CellContents>& contents) {
+    const sheet::Sheet& sheet = workbook.sheets.at(sheetIndex);
     const sheet::FrameMode mode = style.camera.frame;
     if (mode == sheet::FrameMode::Fit) return std::nullopt;
     const Grid own =

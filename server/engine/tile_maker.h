@@ -110,6 +110,11 @@ private:
                                                              std::size_t sheetIndex,
                                                              const CellContents& contents,
                                                              const SharedQuantity& quantity);
+    /// As frame(), of a cell whose style, with all its periods, is resolved already.
+    [[nodiscard]] std::optional<CameraFrame> frameOf(const sheet::TypedStyle& style,
+                                                     const sheet::Workbook& workbook, std::size_t sheetIndex,
+                                                     const sheet::Address& cell, const View& view,
+                                                     const std::shared_ptr<const CellContents>& contents);
     /// What the Ready cells of the sheet draw whose camera.frame is `mode`.
     [[nodiscard]] std::vector<Grid> framedGrids(const sheet::Workbook& workbook, std::size_t sheetIndex,
                                                 sheet::FrameMode mode, const View& view,

@@ -211,9 +211,8 @@ void FramePlanner::reduceQuality(FramePlan& plan) {
     std::erase_if(plan.tiles, [&](PlannedTile& tile) {
         if (tile.image) return false; // the final picture is at hand: nothing is faster
         reduced.sizePixels = scaled(tile.tile.sizePixels, kQualitySteps[plan.step].scale);
-        const int level = tile.prepared.spec->level;
-        tile.prepared = engine_.atQuality(tile.prepared, reduced);
-        tile.prepared = engine_.atLevel(std::move(tile.prepared), level);
+        reduced.level = tile.prepared.spec->level;
+        tile.prepared = engine_.atLevel(engine_.atQuality(tile.prepared, reduced), reduced.level);
         return isShown(tile.tile.cell, tile.prepared.identity, false);
     });
 }
