@@ -114,7 +114,8 @@ test("a level is pinned in the inspector, shows on the badge, and is released by
     await page.getByRole("button", { name: /^Level of detail of B1/ }).click();
     await page.getByRole("menuitem", { name: "By policy" }).click();
     await waitUntil(page, () => window.voxsheet.store.get().tiles.B1.level === 0 && window.voxsheet.store.get().tiles.B1.final);
-    assert.equal(await badge("B1").count(), 0);
+    // The pin goes with the workbook's answer, which may come after the picture.
+    await badge("B1").waitFor({ state: "detached" });
 });
 
 test("the panel measures T_N on request and reads its points out to the keyboard", async () => {
