@@ -28,6 +28,12 @@ FileHandle::FileHandle(const std::filesystem::path& path, int flags, mode_t mode
     if (descriptor_ < 0) fail(path, "opening", errno);
 }
 
+FileHandle::FileHandle(const FileHandle& folder, const std::string& name, int flags)
+    : path_(folder.path_ / name),
+      descriptor_(::openat(folder.descriptor_, name.c_str(), flags | O_CLOEXEC | O_NOFOLLOW)) {
+    if (descriptor_ < 0) fail(path_, "opening", errno);
+}
+
 FileHandle::~FileHandle() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <sys/types.h>
 #include <utility>
 
@@ -15,6 +16,8 @@ public:
     FileHandle() = default;
     /// Opens with O_CLOEXEC and O_NOFOLLOW. Throws NotFound (no such file), IoError.
     FileHandle(const std::filesystem::path& path, int flags, mode_t mode = 0600);
+    /// A file in an open folder, wherever that has been moved to. Throws as above.
+    FileHandle(const FileHandle& folder, const std::string& name, int flags);
     ~FileHandle();
     FileHandle(FileHandle&& other) noexcept;
     FileHandle& operator=(FileHandle&& other) noexcept;

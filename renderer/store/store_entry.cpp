@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kLargestMetaBytes = 256U << 20U;
 
-DatasetMeta readMeta(const std::filesystem::path& folder) {
+DatasetMeta readMeta(const std::string& key, const std::filesystem::path& folder) {
     const FileHandle file(folder / kMetaFile, O_RDONLY);
     if (file.bytes() > kLargestMetaBytes) throw InvalidInput(folder.string(), "meta.json is too large");
     std::string text(file.bytes(), '\0');
@@ -27,7 +27,7 @@ DatasetMeta readMeta(const std::filesystem::path& folder) {
     if (json.value("voxsheet_store_entry", 0) != kEntryVersion)
         throw InvalidInput(folder.string(), "it is of another version");
     auto meta = metaFromJson(json.at("dataset"));
-    meta.key = folder.filename().string();
+    meta.key = key;
     return meta;
 }
 
@@ -53,10 +53,15 @@ void toValues(std::span<const std::byte> stored, const FieldMeta& field, std::sp
 
 } // namespace
 
-StoreEntry::StoreEntry(std::filesystem::path folder, FileHandle lock, std::shared_ptr<const DatasetMeta> meta)
+StoreEntry::StoreEntry(FileHandle folder, FileHandle lock, std::shared_ptr<const DatasetMeta> meta)
     : folder_(std::move(folder)), lock_(std::move(lock)), meta_(std::move(meta)) {}
 
 std::shared_ptr<const StoreEntry> StoreEntry::open(const std::filesystem::path& folder, bool& damaged) {
+    return openAs(folder.filename().string(), folder, damaged);
+}
+
+std::shared_ptr<const StoreEntry> StoreEntry::openAs(const std::string& key,
+                                                     const std::filesystem::path& folder, bool& damaged) {
     damaged = false;
     std::error_code error;
     if (!std::filesystem::exists(folder, error)) return nullptr;
@@ -64,11 +69,12 @@ std::shared_ptr<const StoreEntry> StoreEntry::open(const std::filesystem::path& 
         FileHandle lock(folder / kLockFile, O_RDONLY);
         // The entry may be renamed away (removed) between opening and locking.
         if (!lock.tryLock(false) || !lock.isStillAt(folder / kLockFile)) return nullptr;
-        auto meta = std::make_shared<const DatasetMeta>(readMeta(folder));
+        auto meta = std::make_shared<const DatasetMeta>(readMeta(key, folder));
         checkFiles(folder, *meta);
         ::futimens(lock.descriptor(),
                    nullptr); // last use; on a read-only store the order of eviction does not matter
-        return std::shared_ptr<const StoreEntry>(new StoreEntry(folder, std::move(lock), std::move(meta)));
+        return std::shared_ptr<const StoreEntry>(
+            new StoreEntry(FileHandle(folder, O_RDONLY | O_DIRECTORY), std::move(lock), std::move(meta)));
     } catch (const InvalidInput&) {
         damaged = true;
     } catch (const nlohmann::json::exception&) {
@@ -81,7 +87,7 @@ std::shared_ptr<const StoreEntry> StoreEntry::open(const std::filesystem::path& 
 
 FileHandle StoreEntry::openArrayFile(const VolumeKey& key) const {
     try {
-        return {folder_ / arrayFileName(key.field, key.step), O_RDONLY};
+        return {folder_, arrayFileName(key.field, key.step), O_RDONLY};
     } catch (const NotFound& gone) {
         throw IoError(gone.subject(), "the volume store's entry is gone",
                       "import '" + meta_->sourcePath + "' again");

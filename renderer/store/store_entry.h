@@ -24,7 +24,6 @@ public:
                                                                 bool& damaged);
 
     [[nodiscard]] const std::shared_ptr<const DatasetMeta>& meta() const { return meta_; }
-    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
     /// As VolumeProvider::readSlices. Throws IoError if the files are gone or became shorter.
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
@@ -39,10 +38,14 @@ public:
     [[nodiscard]] double readValue(const VolumeKey& key, const glm::ivec3& sample) const;
 
 private:
-    StoreEntry(std::filesystem::path folder, FileHandle lock, std::shared_ptr<const DatasetMeta> meta);
+    friend class StoreWriter;
+    StoreEntry(FileHandle folder, FileHandle lock, std::shared_ptr<const DatasetMeta> meta);
+    /// As open, of an entry that does not bear its key's name yet.
+    [[nodiscard]] static std::shared_ptr<const StoreEntry>
+    openAs(const std::string& key, const std::filesystem::path& folder, bool& damaged);
     [[nodiscard]] FileHandle openArrayFile(const VolumeKey& key) const;
 
-    std::filesystem::path folder_;
+    FileHandle folder_; ///< open, because a writer may rename it
     FileHandle lock_;
     std::shared_ptr<const DatasetMeta> meta_;
 };

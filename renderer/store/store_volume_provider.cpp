@@ -36,6 +36,11 @@ double StoreVolumeProvider::readValue(const std::string& dataset, int field, int
     return entry(dataset)->readValue({dataset, field, step, 0}, sample);
 }
 
+void StoreVolumeProvider::adopt(const std::shared_ptr<const StoreEntry>& entry) {
+    const std::lock_guard lock(mutex_);
+    open_.insert_or_assign(entry->meta()->key, entry);
+}
+
 void StoreVolumeProvider::forget(const std::string& dataset) {
     const std::lock_guard lock(mutex_);
     open_.erase(dataset);

@@ -29,6 +29,8 @@ public:
     [[nodiscard]] double readValue(const std::string& dataset, int field, int step,
                                    const glm::ivec3& sample) const;
 
+    /// Reads this entry from now on, which a writer is still about to commit.
+    void adopt(const std::shared_ptr<const StoreEntry>& entry);
     /// Closes an entry: from now on it may be evicted.
     void forget(const std::string& dataset);
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <utility>
 
 namespace voxsheet::store {
 
@@ -27,6 +28,20 @@ void validateMeta(const DatasetMeta& meta) {
 
 } // namespace
 
+/// Removed by the last who uses it, unless it became an entry.
+struct StoreWriter::Folder {
+    std::filesystem::path path;
+    bool published = false;
+
+    explicit Folder(std::filesystem::path folder) : path(std::move(folder)) {}
+    ~Folder() {
+        std::error_code ignored;
+        if (!published) std::filesystem::remove_all(path, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+};
+
 StoreWriter::StoreWriter(const VolumeStore& store, DatasetMeta meta) : store_(store), meta_(std::move(meta)) {
     for (auto& field : meta_.fields)
         field.steps.clear();
@@ -40,29 +55,17 @@ StoreWriter::StoreWriter(const VolumeStore& store, DatasetMeta meta) : store_(st
 }
 
 bool StoreWriter::claimNewFolder() {
-    temporary_ = store_.newTemporaryFolder();
-    const auto lockFile = temporary_ / kLockFile;
+    temporary_ = std::make_shared<Folder>(store_.newTemporaryFolder());
+    const auto lockFile = temporary_->path / kLockFile;
     try {
         lock_ = FileHandle(lockFile, O_RDWR | O_CREAT | O_EXCL);
         // Between the making of the file and the locking of it a process that tidies the store may have taken
         // the folder for a leftover: it holds the lock, or has removed the folder by now.
         // Shared: readers that find the entry right after the rename must not be turned away.
-        if (lock_.tryLock(false) && lock_.isStillAt(lockFile)) return true;
+        return lock_.tryLock(false) && lock_.isStillAt(lockFile);
     } catch (const NotFound&) {
-        // Removed even before the file was made.
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove_all(temporary_, ignored);
-        throw;
+        return false; // removed even before the file was made
     }
-    std::error_code ignored;
-    std::filesystem::remove_all(temporary_, ignored);
-    return false;
-}
-
-StoreWriter::~StoreWriter() {
-    std::error_code ignored;
-    if (!committed_) std::filesystem::remove_all(temporary_, ignored);
 }
 
 void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples) {
@@ -77,7 +80,7 @@ void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples
     auto statistics = computeStatistics(array); // checks the size as well
 
     const auto layout = arrayLayout(meta_, field);
-    const FileHandle file(temporary_ / arrayFileName(field, step), O_RDWR | O_CREAT | O_EXCL);
+    const FileHandle file(temporary_->path / arrayFileName(field, step), O_RDWR | O_CREAT | O_EXCL);
     std::vector<std::byte> current = std::move(samples);
     for (int level = 0; level < meta_.levels(); ++level) {
         array.samples = current;
@@ -91,8 +94,7 @@ void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples
         array.dims = coarserDims(array.dims);
     }
     if (::ftruncate(file.descriptor(), static_cast<off_t>(layout.fileBytes)) != 0)
-        throw IoError(temporary_.string(), std::strerror(errno));
-    file.sync();
+        throw IoError(temporary_->path.string(), std::strerror(errno));
     description.steps[static_cast<std::size_t>(step)] = std::move(statistics);
     written_[index] = true;
 }
@@ -100,16 +102,23 @@ void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples
 void StoreWriter::writeMeta() const {
     const nlohmann::json json{{"voxsheet_store_entry", kEntryVersion}, {"dataset", metaToJson(meta_)}};
     const auto text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-    const FileHandle file(temporary_ / kMetaFile, O_WRONLY | O_CREAT | O_EXCL);
+    const FileHandle file(temporary_->path / kMetaFile, O_WRONLY | O_CREAT | O_EXCL);
     file.writeAll(0, std::as_bytes(std::span(text)));
-    file.sync();
+}
+
+void StoreWriter::sync() const {
+    for (int field = 0; field < static_cast<int>(meta_.fields.size()); ++field)
+        for (int step = 0; step < meta_.stepCount(); ++step)
+            FileHandle(temporary_->path / arrayFileName(field, step), O_RDONLY).sync();
+    FileHandle(temporary_->path / kMetaFile, O_RDONLY).sync();
+    syncFolder(temporary_->path);
 }
 
 void StoreWriter::publish() {
     const auto target = store_.folder() / meta_.key;
     for (int attempt = 0; attempt < 20; ++attempt) {
-        if (std::rename(temporary_.c_str(), target.c_str()) == 0) {
-            committed_ = true;
+        if (std::rename(temporary_->path.c_str(), target.c_str()) == 0) {
+            temporary_->published = true;
             return;
         }
         if (errno != EEXIST && errno != ENOTEMPTY)
@@ -125,14 +134,30 @@ void StoreWriter::addNotes(const std::vector<std::string>& notes) {
     meta_.notes.insert(meta_.notes.end(), notes.begin(), notes.end());
 }
 
-void StoreWriter::commit() {
+void StoreWriter::finish() {
+    if (finished_) return;
     if (!std::all_of(written_.begin(), written_.end(), [](bool done) { return done; }))
         throw InvalidInput("dataset '" + meta_.sourcePath + "'", "not every field and time step was read");
     writeMeta();
-    syncFolder(temporary_);
+    finished_ = true;
+}
+
+std::shared_ptr<const StoreEntry> StoreWriter::entry() {
+    finish();
+    bool damaged = false;
+    const auto opened = StoreEntry::openAs(meta_.key, temporary_->path, damaged);
+    if (!opened) throw IoError(temporary_->path.string(), "what was just written cannot be read");
+    // Keeps the folder, too.
+    return {opened.get(), [opened, folder = temporary_](const StoreEntry*) {}};
+}
+
+bool StoreWriter::commit() {
+    finish();
+    sync();
     publish();
     syncFolder(store_.folder());
     store_.makeRoom(0, meta_.key);
+    return temporary_->published;
 }
 
 } // namespace voxsheet::store

@@ -1,7 +1,6 @@
 #include "engine/computed_entry.h"
 
 #include "base/errors.h"
-#include "store/store_writer.h"
 
 #include <utility>
 
@@ -22,15 +21,18 @@ void requireMemory(const std::string& what, std::uint64_t neededBytes, std::uint
         "start the server with a larger --memory-budget");
 }
 
-std::shared_ptr<const DatasetMeta> storeResult(const std::string& what, const store::VolumeStore& store,
-                                               DatasetMeta meta, std::vector<std::byte>&& samples) {
-    const std::string key = meta.key;
-    store::StoreWriter writer(store, std::move(meta));
-    writer.addArray(0, 0, std::move(samples));
-    writer.commit();
-    const auto entry = store.open(key);
-    if (!entry) throw IoError(what, "its result vanished from the volume store", "make --store-limit larger");
-    return entry->meta();
+ComputedEntry::ComputedEntry(std::shared_ptr<const store::StoreEntry> stored) : entry_(std::move(stored)) {}
+
+ComputedEntry::ComputedEntry(const store::VolumeStore& store, DatasetMeta meta,
+                             std::vector<std::byte>&& samples)
+    : writer_(std::make_unique<store::StoreWriter>(store, std::move(meta))) {
+    writer_->addArray(0, 0, std::move(samples));
+    entry_ = writer_->entry();
+}
+
+bool ComputedEntry::commit() {
+    const auto writer = std::move(writer_);
+    return !writer || writer->commit();
 }
 
 } // namespace voxsheet::engine

@@ -112,8 +112,7 @@ std::shared_ptr<const CellContents> DatasetKeeper::contents(const sheet::KeyTabl
     sources.formula = [&](const FormulaTask& task) {
         const std::string id = formulaEntryKey(task);
         computations_.ensure(id, [this, task](const JobControl& control) {
-            auto meta = computeFormula(task, *store_, *volumes_, options_.memoryBudgetBytes, control);
-            return volumes_->describe(meta->key);
+            return readable(computeFormula(task, *store_, *volumes_, options_.memoryBudgetBytes, control));
         });
         return std::pair(id, computations_.find(id).value());
     };
@@ -123,13 +122,28 @@ std::shared_ptr<const CellContents> DatasetKeeper::contents(const sheet::KeyTabl
     return made;
 }
 
+JobResult DatasetKeeper::readable(ComputedEntry made) {
+    const auto shared = std::make_shared<ComputedEntry>(std::move(made));
+    volumes_->adopt(shared->entry());
+    return {shared->meta(), [this, shared] {
+                // Another process's entry is read instead of this one, which then can go.
+                bool stays = false;
+                try {
+                    stays = shared->commit();
+                } catch (...) {
+                    volumes_->forget(shared->meta()->key);
+                    throw;
+                }
+                if (!stays) volumes_->forget(shared->meta()->key);
+            }};
+}
+
 JobState DatasetKeeper::threshold(const std::string& asker, const ThresholdTask& task) {
     const std::string id = thresholdEntryKey(task);
     want(asker, id);
     while (true) {
         computations_.ensure(id, [this, task](const JobControl& control) {
-            const auto meta = computeThreshold(task, *store_, *volumes_, options_.memoryBudgetBytes, control);
-            return volumes_->describe(meta->key);
+            return readable(computeThreshold(task, *store_, *volumes_, options_.memoryBudgetBytes, control));
         });
         // Another thread may have dropped it in between.
         if (const auto state = computations_.find(id)) return *state;

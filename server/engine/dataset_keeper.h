@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/cell_contents.h"
+#include "engine/computed_entry.h"
 #include "engine/engine.h"
 #include "engine/entry_jobs.h"
 #include "engine/source_files.h"
@@ -62,6 +63,8 @@ public:
 private:
     [[nodiscard]] std::shared_ptr<const DatasetMeta> import(const sheet::DatasetSource& source,
                                                             const JobControl& control);
+    /// Its pictures need not wait until it is written durably.
+    [[nodiscard]] JobResult readable(ComputedEntry made);
     void settled(bool isSettled, const std::string& importId);
     /// Remembers what `asker` wants (empty: nothing) and drops what nobody wants any more.
     void want(const std::string& asker, const std::string& thresholdId);

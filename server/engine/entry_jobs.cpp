@@ -142,16 +142,20 @@ void EntryJobs::execute(const std::string& id, const Work& work,
         }
         if (listener_) listener_(id, false);
     };
-    JobState result;
     try {
-        result.meta = work(control);
-        result.state = DatasetState::Ready;
-        result.progress = 1.0;
+        JobResult result = work(control);
+        JobState ready;
+        ready.meta = std::move(result.meta);
+        ready.state = DatasetState::Ready;
+        ready.progress = 1.0;
+        settle(id, cancelled, std::move(ready));
+        if (result.afterwards) result.afterwards();
     } catch (const std::exception& error) {
-        result.state = DatasetState::Failed;
-        result.failure = cancelled->load() ? cancelledFailure() : failureOf(error);
+        JobState failed;
+        failed.state = DatasetState::Failed;
+        failed.failure = cancelled->load() ? cancelledFailure() : failureOf(error);
+        settle(id, cancelled, std::move(failed));
     }
-    settle(id, cancelled, std::move(result));
 }
 
 void EntryJobs::settle(const std::string& id, const std::shared_ptr<std::atomic<bool>>& cancelled,

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace voxsheet::engine {
@@ -33,12 +34,23 @@ struct JobState {
     std::uint64_t job = 0;                   ///< counts up over the life of the table
 };
 
+/// What a job made.
+struct JobResult {
+    std::shared_ptr<const DatasetMeta> meta;
+    /// What is left to do once the job is ready, on the same thread; empty: nothing. If it throws, the job
+    /// fails after all.
+    std::function<void()> afterwards;
+
+    JobResult(std::shared_ptr<const DatasetMeta> made, std::function<void()> rest = {})
+        : meta(std::move(made)), afterwards(std::move(rest)) {}
+};
+
 /// Thread-safe. Jobs are known by an id that names their result; a few run at a time, in the order in which
 /// they came.
 class EntryJobs {
 public:
     /// Makes the entry, or throws; Error becomes the failure's sentence, anything else an internal one.
-    using Work = std::function<std::shared_ptr<const DatasetMeta>(const JobControl&)>;
+    using Work = std::function<JobResult(const JobControl&)>;
     /// Called on the worker's thread, with no lock held: `settled` when a job became ready or failed, else
     /// on progress.
     using Listener = std::function<void(const std::string& id, bool settled)>;

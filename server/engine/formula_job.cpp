@@ -2,7 +2,6 @@
 
 #include "base/errors.h"
 #include "base/thread_count.h"
-#include "engine/computed_entry.h"
 #include "engine/sample_reader.h"
 #include "store/store_key.h"
 #include "volume/parallel_for.h"
@@ -170,15 +169,14 @@ std::uint64_t formulaMemoryBytes(const FormulaTask& task) {
            threads * slab * (sizeof(double) * (task.inputs.size() + 1) + sizeof(float));
 }
 
-std::shared_ptr<const DatasetMeta> computeFormula(const FormulaTask& task, const store::VolumeStore& store,
-                                                  const VolumeProvider& volumes,
-                                                  std::uint64_t memoryBudgetBytes,
-                                                  const JobControl& control) {
+ComputedEntry computeFormula(const FormulaTask& task, const store::VolumeStore& store,
+                             const VolumeProvider& volumes, std::uint64_t memoryBudgetBytes,
+                             const JobControl& control) {
     const std::string key = formulaEntryKey(task);
-    if (const auto entry = store.open(key)) return entry->meta();
+    if (const auto entry = store.open(key)) return ComputedEntry(entry);
     requireMemory("formula " + task.formula, formulaMemoryBytes(task), memoryBudgetBytes);
     auto samples = computeSamples(task, volumes, control);
-    return storeResult("formula " + task.formula, store, resultMeta(task, key), std::move(samples));
+    return {store, resultMeta(task, key), std::move(samples)};
 }
 
 } // namespace voxsheet::engine

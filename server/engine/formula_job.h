@@ -1,6 +1,7 @@
 // Computes a formula's volume into the store, slab by slab on all threads, from level-0 source values.
 #pragma once
 
+#include "engine/computed_entry.h"
 #include "engine/entry_jobs.h"
 #include "sheet/formula/plan.h"
 #include "store/volume_store.h"
@@ -44,11 +45,11 @@ struct ValueMeaning {
 /// Bytes of memory that computeFormula needs at its peak.
 [[nodiscard]] std::uint64_t formulaMemoryBytes(const FormulaTask& task);
 
-/// The entry's metadata: the geometry of the first input, one field, one step, float. Uses the entry that
-/// the store has, or makes it. Throws LimitExceeded if formulaMemoryBytes exceeds the budget, Cancelled,
+/// The entry, to be committed: the geometry of the first input, one field, one step, float. Uses the entry
+/// that the store has, or makes it. Throws LimitExceeded if formulaMemoryBytes exceeds the budget, Cancelled,
 /// and what store and provider throw.
-[[nodiscard]] std::shared_ptr<const DatasetMeta>
-computeFormula(const FormulaTask& task, const store::VolumeStore& store, const VolumeProvider& volumes,
-               std::uint64_t memoryBudgetBytes, const JobControl& control);
+[[nodiscard]] ComputedEntry computeFormula(const FormulaTask& task, const store::VolumeStore& store,
+                                           const VolumeProvider& volumes, std::uint64_t memoryBudgetBytes,
+                                           const JobControl& control);
 
 } // namespace voxsheet::engine

@@ -1,7 +1,6 @@
 #include "engine/threshold_job.h"
 
 #include "base/errors.h"
-#include "engine/computed_entry.h"
 #include "engine/sample_reader.h"
 #include "store/store_key.h"
 
@@ -104,11 +103,11 @@ std::uint64_t thresholdMemoryBytes(const ThresholdTask& task) {
     return samples * sizeof(float) + 2 * slab * sizeof(double) + distances * kBytesPerDistance;
 }
 
-std::shared_ptr<const DatasetMeta>
-computeThreshold(const ThresholdTask& task, const store::VolumeStore& store, const VolumeProvider& volumes,
-                 std::uint64_t memoryBudgetBytes, const JobControl& control) {
+ComputedEntry computeThreshold(const ThresholdTask& task, const store::VolumeStore& store,
+                               const VolumeProvider& volumes, std::uint64_t memoryBudgetBytes,
+                               const JobControl& control) {
     const std::string key = thresholdEntryKey(task);
-    if (const auto entry = store.open(key)) return entry->meta();
+    if (const auto entry = store.open(key)) return ComputedEntry(entry);
     requireMemory("clip object " + task.text, thresholdMemoryBytes(task), memoryBudgetBytes);
     DistanceVolume result;
     {
@@ -117,8 +116,7 @@ computeThreshold(const ThresholdTask& task, const store::VolumeStore& store, con
     }
     throwIfCancelled(task, control);
     report(control, 0.9);
-    return storeResult("clip object " + task.text, store, resultMeta(task, key, result.grid),
-                       bytesOf(result.distances));
+    return {store, resultMeta(task, key, result.grid), bytesOf(result.distances)};
 }
 
 bool holdsSignedDistances(const DatasetMeta& meta) {

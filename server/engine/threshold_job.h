@@ -2,6 +2,7 @@
 // object made of data.
 #pragma once
 
+#include "engine/computed_entry.h"
 #include "engine/entry_jobs.h"
 #include "engine/formula_job.h"
 #include "store/volume_store.h"
@@ -26,12 +27,12 @@ struct ThresholdTask {
 /// Bytes of memory that computeThreshold needs at its peak.
 [[nodiscard]] std::uint64_t thresholdMemoryBytes(const ThresholdTask& task);
 
-/// Metadata of an entry whose field 0, step 0 holds the distances of volume/signed_distance.h, of level 0 of
-/// the input. Uses the entry that the store has, or makes it. Throws LimitExceeded if thresholdMemoryBytes
-/// exceeds the budget, Cancelled, and what store and provider throw.
-[[nodiscard]] std::shared_ptr<const DatasetMeta>
-computeThreshold(const ThresholdTask& task, const store::VolumeStore& store, const VolumeProvider& volumes,
-                 std::uint64_t memoryBudgetBytes, const JobControl& control);
+/// The entry, to be committed, whose field 0, step 0 holds the distances of volume/signed_distance.h, of
+/// level 0 of the input. Uses the entry that the store has, or makes it. Throws LimitExceeded if
+/// thresholdMemoryBytes exceeds the budget, Cancelled, and what store and provider throw.
+[[nodiscard]] ComputedEntry computeThreshold(const ThresholdTask& task, const store::VolumeStore& store,
+                                             const VolumeProvider& volumes, std::uint64_t memoryBudgetBytes,
+                                             const JobControl& control);
 
 /// Whether field 0 holds signed distances, so that the dataset can be a clip object as it is.
 [[nodiscard]] bool holdsSignedDistances(const DatasetMeta& meta);

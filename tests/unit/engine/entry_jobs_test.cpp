@@ -50,6 +50,31 @@ TEST(EntryJobs, WorkBecomesReadyAndIsDoneOnce) {
     EXPECT_FALSE(jobs.find("b"));
 }
 
+TEST(EntryJobs, IsReadyBeforeWhatIsLeftToDoAndFailsWithIt) {
+    std::promise<void> goOn;
+    auto gate = goOn.get_future().share();
+    EntryJobs jobs(2, {});
+    const auto withRest = [&](bool fails) {
+        return [&, fails](const JobControl&) -> JobResult {
+            return {metaNamed("k"), [gate, fails] {
+                        gate.wait();
+                        if (fails) throw IoError("the store", "the disk is full");
+                    }};
+        };
+    };
+    jobs.ensure("good", withRest(false));
+    jobs.ensure("bad", withRest(true));
+    for (const char* id : {"good", "bad"})
+        while (jobs.find(id)->state != DatasetState::Ready)
+            std::this_thread::sleep_for(1ms);
+    EXPECT_FALSE(jobs.waitIdle(0.01)) << "the rest is still to be done";
+    goOn.set_value();
+    ASSERT_TRUE(jobs.waitIdle(10));
+    EXPECT_EQ(jobs.find("good")->state, DatasetState::Ready);
+    ASSERT_EQ(jobs.find("bad")->state, DatasetState::Failed);
+    EXPECT_NE(jobs.find("bad")->failure->message.find("disk is full"), std::string::npos);
+}
+
 TEST(EntryJobs, AFailureStaysWithItsJob) {
     EntryJobs jobs(1, {});
     jobs.ensure("bad", [](const JobControl&) -> std::shared_ptr<const DatasetMeta> {

@@ -45,7 +45,9 @@ protected:
 };
 
 TEST_F(FormulaJob, TheResultIsAVolumeLikeAnyOther) {
-    const auto meta = computeFormula(task(), *store, inputs, 0, {});
+    auto made = computeFormula(task(), *store, inputs, 0, {});
+    const auto meta = made.meta();
+    EXPECT_TRUE(made.commit());
     EXPECT_EQ(meta->format, "formula");
     EXPECT_EQ(meta->grid.dims, glm::ivec3(17, 9, 13));
     EXPECT_EQ(meta->fields[0].unit, "e/Å^3");
@@ -71,9 +73,11 @@ TEST_F(FormulaJob, SlabsOnAllThreadsMakeOneVolume) {
     std::vector<double> told;
     JobControl control;
     control.progress = [&](double progress) { told.push_back(progress); };
-    const auto meta =
+    auto made =
         computeFormula({difference(), {{inputs.describe("y"), 0, 0}, {inputs.describe("x"), 0, 0}}, "=Y1-X1"},
                        *store, inputs, 0, control);
+    const auto meta = made.meta();
+    EXPECT_TRUE(made.commit());
     EXPECT_EQ(told.size(), 4U);
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     const auto values = readValues(results, *meta, {meta->key, 0, 0, 0}, 0, dims.z);
@@ -86,11 +90,32 @@ TEST_F(FormulaJob, SlabsOnAllThreadsMakeOneVolume) {
 
 TEST_F(FormulaJob, TheSameFormulaIsComputedOnce) {
     const FormulaTask formula = task();
-    const auto first = computeFormula(formula, *store, inputs, 0, {});
+    auto first = computeFormula(formula, *store, inputs, 0, {});
+    EXPECT_TRUE(first.commit());
     // With its inputs gone, only the store can answer.
     inputs.remove("a");
     inputs.remove("b");
-    EXPECT_EQ(computeFormula(formula, *store, inputs, 0, {})->key, first->key);
+    EXPECT_EQ(computeFormula(formula, *store, inputs, 0, {}).meta()->key, first.meta()->key);
+}
+
+TEST_F(FormulaJob, TheResultIsReadableBeforeItIsInTheStoreAndThenStays) {
+    std::shared_ptr<const store::StoreEntry> dropped;
+    {
+        auto made = computeFormula(task(), *store, inputs, 0, {});
+        results.adopt(made.entry());
+        EXPECT_EQ(readValues(results, *made.meta(), {made.meta()->key, 0, 0, 0}, 0, 1)[3], 6.0);
+        EXPECT_EQ(store->open(made.meta()->key), nullptr) << "nobody else finds what is not durable yet";
+        EXPECT_TRUE(made.commit());
+        EXPECT_EQ(readValues(results, *made.meta(), {made.meta()->key, 0, 0, 0}, 0, 1)[3], 6.0);
+        EXPECT_NE(store->open(made.meta()->key), nullptr);
+        results.forget(made.meta()->key);
+    }
+    store->remove(formulaEntryKey(task()));
+    dropped = computeFormula(task(), *store, inputs, 0, {}).entry();
+    EXPECT_EQ(store->open(formulaEntryKey(task())), nullptr) << "it was never committed";
+    std::vector<double> value(1);
+    EXPECT_NO_THROW(dropped->readBox({dropped->meta()->key, 0, 0, 0}, {3, 0, 0}, glm::ivec3(1), value));
+    EXPECT_EQ(value[0], 6.0) << "a reader keeps what it holds";
 }
 
 TEST_F(FormulaJob, TheKeyTellsArraysAndPlansApart) {

@@ -39,7 +39,9 @@ protected:
 };
 
 TEST_F(ThresholdJob, TheResultHoldsDistancesToTheSurfaceNegativeInside) {
-    const auto meta = computeThreshold(task(0.0), *store, inputs, 0, {});
+    auto made = computeThreshold(task(0.0), *store, inputs, 0, {});
+    const auto meta = made.meta();
+    EXPECT_TRUE(made.commit());
     EXPECT_TRUE(holdsSignedDistances(*meta));
     EXPECT_EQ(meta->format, "threshold");
     EXPECT_EQ(meta->lengthUnit, "mm");
@@ -60,7 +62,8 @@ TEST_F(ThresholdJob, TheResultHoldsDistancesToTheSurfaceNegativeInside) {
 }
 
 TEST_F(ThresholdJob, EqualComparisonsAreComputedOnceAndOthersHaveKeysOfTheirOwn) {
-    const auto first = computeThreshold(task(1.0), *store, inputs, 0, {});
+    auto first = computeThreshold(task(1.0), *store, inputs, 0, {});
+    EXPECT_TRUE(first.commit());
     EXPECT_NE(thresholdEntryKey(task(1.0)), thresholdEntryKey(task(1.0000001)));
     EXPECT_NE(thresholdEntryKey(task(1.0)), thresholdEntryKey(task(1.0, Comparison::GreaterOrEqual)));
     EXPECT_EQ(thresholdEntryKey(task(0.0)), thresholdEntryKey(task(-0.0)));
@@ -71,7 +74,7 @@ TEST_F(ThresholdJob, EqualComparisonsAreComputedOnceAndOthersHaveKeysOfTheirOwn)
     EXPECT_NE(thresholdEntryKey(task(1.0)), thresholdEntryKey(other));
     const ThresholdTask again = task(1.0);
     inputs.remove("ball"); // Only the store can answer now.
-    EXPECT_EQ(computeThreshold(again, *store, inputs, 0, {})->key, first->key);
+    EXPECT_EQ(computeThreshold(again, *store, inputs, 0, {}).meta()->key, first.meta()->key);
 }
 
 TEST_F(ThresholdJob, ABudgetThatIsTooSmallIsNamed) {
@@ -100,7 +103,7 @@ TEST_F(ThresholdJob, CancellingLeavesNothingBehindAndProgressRises) {
 }
 
 TEST_F(ThresholdJob, ASolidThatIsNowhereIsAVolumeToo) {
-    const auto meta = computeThreshold(task(1e300), *store, inputs, 0, {});
+    const auto meta = computeThreshold(task(1e300), *store, inputs, 0, {}).meta();
     EXPECT_GT(meta->fields[0].steps[0].statistics.min, 0.0);
 }
 

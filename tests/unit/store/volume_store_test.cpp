@@ -262,6 +262,51 @@ TEST_F(StoreTest, ProcessKilledBetweenWriteAndRenameLeavesNothing) {
     EXPECT_EQ(again.open("abc"), nullptr);
 }
 
+TEST_F(StoreTest, WhatIsReadEarlyIsInvisibleToOthersAndGoneWithAKilledWriter) {
+    { const VolumeStore make(folder()); }
+    const auto child = ::fork();
+    if (child == 0) {
+        const VolumeStore store(folder());
+        StoreWriter writer(store, sampleMeta("abc"));
+        writer.addArray(0, 0, rampSamples({20, 9, 6}));
+        const auto early = writer.entry();
+        const bool whole = early && early->meta()->key == "abc" && !store.open("abc");
+        if (whole) ::kill(::getpid(), SIGKILL);
+        ::_exit(1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "readable early, and by nobody else";
+    const VolumeStore again(folder());
+    EXPECT_EQ(namesInStore(), 0U);
+    EXPECT_EQ(again.open("abc"), nullptr);
+}
+
+TEST_F(StoreTest, AnEntryReadEarlyOutlivesRenamingAndAnotherWriter) {
+    const VolumeStore store(folder());
+    std::vector<std::byte> slice(20 * 9 * 2);
+    const auto reads = [&](const StoreEntry& entry) { entry.readSlices({"abc", 0, 0, 0}, 0, 1, slice); };
+    std::shared_ptr<const StoreEntry> early;
+    std::shared_ptr<const StoreEntry> late;
+    {
+        StoreWriter first(store, sampleMeta("abc"));
+        StoreWriter second(store, sampleMeta("abc"));
+        first.addArray(0, 0, rampSamples({20, 9, 6}));
+        second.addArray(0, 0, rampSamples({20, 9, 6}));
+        early = first.entry();
+        late = second.entry();
+        EXPECT_TRUE(first.commit());
+        EXPECT_FALSE(second.commit());
+    }
+    EXPECT_NO_THROW(reads(*early));
+    EXPECT_NO_THROW(reads(*late)) << "its folder went before its reader";
+    EXPECT_FALSE(store.remove("abc")) << "it is open";
+    early.reset();
+    late.reset();
+    EXPECT_EQ(namesInStore(), 1U) << "the second one's folder stays behind";
+    EXPECT_TRUE(store.remove("abc"));
+}
+
 TEST_F(StoreTest, ALiveWritersFolderIsLeftAlone) {
     const VolumeStore store(folder());
     StoreWriter writer(store, sampleMeta("abc"));
