@@ -3,7 +3,11 @@
 #include "base/errors.h"
 #include "volume/statistics.h"
 
+#include <climits>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace voxsheet::store {
 
@@ -14,6 +18,15 @@ using nlohmann::json;
 double finite(double number, const char* what) {
     if (!std::isfinite(number)) throw InvalidInput(what, "it is not a finite number");
     return number;
+}
+
+std::int64_t wholeFromJson(const json& j, const char* what, std::int64_t low, std::int64_t high) {
+    const bool beyond = j.is_number_unsigned() && j.get<std::uint64_t>() > static_cast<std::uint64_t>(high);
+    if (!j.is_number_integer() || beyond || j.get<std::int64_t>() < low || j.get<std::int64_t>() > high) {
+        throw InvalidInput(what, "it must be a whole number from " + std::to_string(low) + " to " +
+                                     std::to_string(high));
+    }
+    return j.get<std::int64_t>();
 }
 
 json vectorToJson(const glm::dvec3& v, const char* what) {
@@ -37,9 +50,8 @@ json gridToJson(const Grid& grid) {
 Grid gridFromJson(const json& j) {
     Grid grid;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto size = j.at("dims").at(static_cast<std::size_t>(axis)).get<std::int64_t>();
-        if (size < 1 || size > (1 << 24)) throw InvalidInput("dims", "out of range");
-        grid.dims[axis] = static_cast<int>(size);
+        const auto& size = j.at("dims").at(static_cast<std::size_t>(axis));
+        grid.dims[axis] = static_cast<int>(wholeFromJson(size, "dims", 1, 1 << 24));
         grid.periodic[axis] = j.at("periodic").at(static_cast<std::size_t>(axis)).get<bool>();
     }
     for (int column = 0; column < 4; ++column)
@@ -77,12 +89,13 @@ FieldStep stepFromJson(const json& j) {
     step.statistics.max = j.at("max").get<double>();
     step.statistics.mean = j.at("mean").get<double>();
     step.statistics.standardDeviation = j.at("standard_deviation").get<double>();
-    step.statistics.finiteCount = j.at("finite_count").get<std::uint64_t>();
-    step.statistics.nanCount = j.at("nan_count").get<std::uint64_t>();
+    step.statistics.finiteCount = countFromJson(j.at("finite_count"), "finite_count");
+    step.statistics.nanCount = countFromJson(j.at("nan_count"), "nan_count");
     const auto& histogram = j.at("histogram");
     step.histogram.low = histogram.at("low").get<double>();
     step.histogram.high = histogram.at("high").get<double>();
-    step.histogram.counts = histogram.at("counts").get<std::vector<std::uint64_t>>();
+    for (const auto& count : histogram.at("counts").get_ref<const json::array_t&>()) // throws for no list
+        step.histogram.counts.push_back(countFromJson(count, "histogram"));
     if (step.histogram.counts.size() != static_cast<std::size_t>(kHistogramBins))
         throw InvalidInput("histogram", "it has not " + std::to_string(kHistogramBins) + " bins");
     return step;
@@ -129,8 +142,10 @@ Crystal crystalFromJson(const json& j) {
     Crystal crystal;
     for (int column = 0; column < 3; ++column)
         crystal.lattice[column] = vectorFromJson(j.at("lattice").at(static_cast<std::size_t>(column)));
-    for (const auto& atom : j.at("atoms"))
-        crystal.atoms.push_back({atom.at("atomic_number").get<int>(), vectorFromJson(atom.at("position"))});
+    for (const auto& atom : j.at("atoms")) {
+        const auto number = wholeFromJson(atom.at("atomic_number"), "atomic_number", INT_MIN, INT_MAX);
+        crystal.atoms.push_back({static_cast<int>(number), vectorFromJson(atom.at("position"))});
+    }
     crystal.comment = j.at("comment").get<std::string>();
     return crystal;
 }
@@ -142,7 +157,8 @@ json labelToJson(const LabelMeta& label) {
 }
 
 LabelMeta labelFromJson(const json& j) {
-    LabelMeta label{j.at("value").get<std::int64_t>(), j.at("name").get<std::string>(), std::nullopt};
+    LabelMeta label{wholeFromJson(j.at("value"), "value of a label", INT64_MIN, INT64_MAX),
+                    j.at("name").get<std::string>(), std::nullopt};
     if (j.contains("rgb")) label.rgb = vectorFromJson(j.at("rgb"));
     return label;
 }
@@ -197,6 +213,11 @@ DatasetMeta metaFromJson(const nlohmann::json& j) {
     } catch (const json::exception& error) {
         throw InvalidInput("description of a dataset", error.what());
     }
+}
+
+std::uint64_t countFromJson(const nlohmann::json& j, const char* what) {
+    if (j.is_number_unsigned()) return j.get<std::uint64_t>();
+    return static_cast<std::uint64_t>(wholeFromJson(j, what, 0, INT64_MAX));
 }
 
 nlohmann::json parseJson(std::string_view text, std::string_view what) {

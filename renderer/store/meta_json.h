@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <string_view>
 
 namespace voxsheet::store {
@@ -16,6 +17,10 @@ namespace voxsheet::store {
 /// Inverse; checks everything that the program relies on: the grid, the number of steps, types. Throws
 /// InvalidInput.
 [[nodiscard]] DatasetMeta metaFromJson(const nlohmann::json& json);
+
+/// A whole number from 0 on, as written: 1.0 is none, nor is one that 64 bits do not hold (nlohmann-json
+/// would convert either, with no check of its range). Throws InvalidInput that names `what`.
+[[nodiscard]] std::uint64_t countFromJson(const nlohmann::json& json, const char* what);
 
 /// Parses text with at most 32 nested levels (nlohmann-json 3.11 parses any depth, then overflows the stack
 /// in its destructor or dump). Throws InvalidInput.

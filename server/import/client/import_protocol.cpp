@@ -39,7 +39,7 @@ json toJson(const ErrorMessage& error) {
 }
 
 FilePreview headerFromJson(const json& j) {
-    return {store::metaFromJson(j.at("dataset")), j.at("voxel_bytes").get<std::uint64_t>(),
+    return {store::metaFromJson(j.at("dataset")), store::countFromJson(j.at("voxel_bytes"), "voxel_bytes"),
             j.at("files").get<std::vector<std::string>>()};
 }
 
@@ -56,7 +56,7 @@ ImporterMessage messageFromJson(const json& j) {
     if (j.contains("measured")) {
         const auto& time = j.at("measured");
         return ReadingTime{time.at("header_seconds").get<double>(), time.at("data_seconds").get<double>(),
-                           time.at("voxel_bytes").get<std::uint64_t>()};
+                           store::countFromJson(time.at("voxel_bytes"), "voxel_bytes")};
     }
     KeyMessage message{j.at("key").get<std::string>()};
     if (!store::isStoreKey(message.key))

@@ -88,6 +88,35 @@ TEST(MetaJson, EveryMemberMissingOrOfAnotherTypeIsAnError) {
     EXPECT_THROW((void)metaFromJson(wrong), InvalidInput);
 }
 
+TEST(MetaJson, WholeNumbersAreNotConvertedFromOthers) {
+    const auto json = metaToJson(fullMeta());
+    const std::vector<nlohmann::json::json_pointer> places{
+        "/grid/dims/0"_json_pointer,
+        "/fields/0/steps/0/finite_count"_json_pointer,
+        "/fields/0/steps/0/nan_count"_json_pointer,
+        "/fields/0/steps/0/histogram/counts/5"_json_pointer,
+        "/crystal/atoms/0/atomic_number"_json_pointer,
+        "/labels/1/value"_json_pointer,
+    };
+    for (const auto& place : places) {
+        ASSERT_TRUE(json.at(place).is_number_integer()) << place.to_string();
+        for (const char* bad : {"8.8e20", "-1e300", "1.5", "true", "\"3\"", "null", "18446744073709551616"}) {
+            auto wrong = json;
+            wrong[place] = nlohmann::json::parse(bad);
+            EXPECT_THROW((void)metaFromJson(wrong), InvalidInput) << place.to_string() << " = " << bad;
+        }
+    }
+    auto wrong = json;
+    wrong["/fields/0/steps/0/finite_count"_json_pointer] = -1;
+    EXPECT_THROW((void)metaFromJson(wrong), InvalidInput);
+    wrong = json;
+    wrong["/crystal/atoms/0/atomic_number"_json_pointer] = std::int64_t{1} << 40;
+    EXPECT_THROW((void)metaFromJson(wrong), InvalidInput);
+    wrong = json;
+    wrong["/fields/0/steps/0/finite_count"_json_pointer] = UINT64_MAX;
+    EXPECT_EQ(metaFromJson(wrong).fields[0].steps[0].statistics.finiteCount, UINT64_MAX);
+}
+
 TEST(MetaJson, DeepNestingIsACleanError) {
     EXPECT_THROW((void)parseJson(std::string(100000, '['), "test"), InvalidInput);
     EXPECT_THROW((void)parseJson("{\"a\":", "test"), InvalidInput);
