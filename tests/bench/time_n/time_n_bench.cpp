@@ -4,7 +4,9 @@
 #include "base/errors.h"
 #include "base/host_memory.h"
 #include "bench/time_n/bench_datasets.h"
+#include "bench/time_n/machine_pace.h"
 #include "bench/time_n/other_load.h"
+#include "bench/time_n/second_look.h"
 #include "bench/time_n/stop_signals.h"
 #include "frame/render_thread.h"
 #include "frame/timer_check.h"
@@ -39,6 +41,8 @@ public:
              const std::function<void(const std::string&)>& progress)
         : datasets_(datasets), progress_(progress), memory_(hostMemory(datasets, options.memoryBudgetBytes)),
           thread_(memory_, {options.device, options.textureBudgetBytes}),
+          pace_(options.scene, datasets, std::make_shared<const store::StoreVolumeProvider>(datasets.store()),
+                options.device),
           resolution_(options.rule, levelCount(datasets.grid().dims)) {
         result_.options = options;
         result_.renderer = thread_.device().renderer;
@@ -50,6 +54,10 @@ public:
             (void)draw(frameSpec(1, frame));
         for (int n = 1; n <= result_.options.maxN; n = next(n)) {
             measureAndKeep(n);
+            if (const auto first = firstNToMeasureAgain(n)) {
+                n = startAgainFrom(*first);
+                continue;
+            }
             while (answer(n)) {
             }
             const double limit = result_.options.stopMs;
@@ -97,43 +105,29 @@ private:
         progress_(line);
     }
 
+    /// Of the frames of one N.
+    struct Frames {
+        std::vector<double> wallMs;
+        std::vector<double> uploadMs; ///< sums over tiles
+        std::vector<double> readMs;   ///< likewise
+        std::vector<PaceCurve::Clock::time_point> middles;
+    };
+
     [[nodiscard]] TimeNPoint measure(int n) {
         (void)draw(frameSpec(n, 0)); // uploads what is new
         TimeNPoint point;
         point.n = n;
         point.level = resolution_.level();
-        std::vector<double> times;
-        std::vector<double> uploads;
-        std::vector<double> reads;
         const auto diskBefore = memory_->state().diskBytes;
-        double totalMs = 0.0;
-        // Whole rounds, so that every N is seen from the same sides.
-        const auto round = static_cast<std::size_t>(result_.options.frames);
-        const auto isEnough = [&] {
-            return times.size() >= kMostRounds * round ||
-                   (totalMs >= kLeastTotalMs && times.size() % round == 0);
-        };
-        while (times.empty() || !isEnough()) {
-            const auto drawn = draw(frameSpec(n, static_cast<int>(times.size() % round)));
-            times.push_back(drawn.wallMs);
-            totalMs += drawn.wallMs;
-            uploads.push_back(0.0);
-            reads.push_back(0.0);
-            for (const auto& tile : drawn.tiles) {
-                uploads.back() += tile.uploadMs;
-                reads.back() += tile.readMs;
-            }
-            resolution_.addFrame(n, drawn.wallMs);
-            point.residentBytes = std::max(point.residentBytes, thread_.residency().residentBytes);
-            point.hostBytes = std::max(point.hostBytes, memory_->state().bytes);
-        }
-        point.ms = measuredMedian(times);
-        point.uploadMs = measuredMedian(uploads).value;
-        point.ioMs = measuredMedian(reads).value;
+        const Frames frames = drawRounds(point);
+        point.wallMs = measuredMedian(frames.wallMs).value;
+        point.uploadMs = measuredMedian(frames.uploadMs).value;
+        point.ioMs = measuredMedian(frames.readMs).value;
         point.diskBytesPerFrame =
-            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(times.size());
+            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(frames.wallMs.size());
         if (point.uploadMs > 0.0 && !result_.textureSwapN) result_.textureSwapN = n;
         if (point.diskBytesPerFrame > 0 && !result_.memorySwapN) result_.memorySwapN = n;
+        keepAtFirstPace(frames, point);
         const auto curve = resolution_.times().curve(point.level, n);
         point.rawRatio = rawSlopeRatio(curve);
         point.ratio = newestSlopeRatio(segmentFrom(curve, std::max(watchedFromN_, watch_.segmentFirstN())));
@@ -141,10 +135,83 @@ private:
         return point;
     }
 
+    [[nodiscard]] Frames drawRounds(TimeNPoint& point) {
+        Frames frames;
+        double totalMs = 0.0;
+        // Whole rounds, so that every N is seen from the same sides.
+        const auto round = static_cast<std::size_t>(result_.options.frames);
+        const auto isEnough = [&] {
+            const std::size_t count = frames.wallMs.size();
+            return count >= kMostRounds * round || (totalMs >= kLeastTotalMs && count % round == 0);
+        };
+        pace_.forget();
+        while (frames.wallMs.empty() || !isEnough()) {
+            pace_.look();
+            const auto begun = PaceCurve::Clock::now();
+            const auto drawn = draw(frameSpec(point.n, static_cast<int>(frames.wallMs.size() % round)));
+            frames.middles.push_back(begun + (PaceCurve::Clock::now() - begun) / 2);
+            frames.wallMs.push_back(drawn.wallMs);
+            totalMs += drawn.wallMs;
+            double uploadMs = 0.0;
+            double readMs = 0.0;
+            for (const auto& tile : drawn.tiles) {
+                uploadMs += tile.uploadMs;
+                readMs += tile.readMs;
+            }
+            frames.uploadMs.push_back(uploadMs);
+            frames.readMs.push_back(readMs);
+            point.residentBytes = std::max(point.residentBytes, thread_.residency().residentBytes);
+            point.hostBytes = std::max(point.hostBytes, memory_->state().bytes);
+        }
+        pace_.look();
+        return frames;
+    }
+
+    /// What was waited for a disk stays as it was: only processors are slower for a while.
+    void keepAtFirstPace(const Frames& frames, TimeNPoint& point) {
+        std::vector<double> slowdowns;
+        std::vector<double> times;
+        for (std::size_t i = 0; i < frames.wallMs.size(); ++i) {
+            slowdowns.push_back(pace_.slowdownAt(frames.middles[i]));
+            const double readMs = std::min(frames.readMs[i], frames.wallMs[i]);
+            times.push_back(readMs + (frames.wallMs[i] - readMs) / slowdowns.back());
+            resolution_.addFrame(point.n, times.back());
+        }
+        point.slowdown = measuredMedian(slowdowns).value;
+        point.ms = measuredMedian(times);
+    }
+
     void checkTimers(int n) {
         auto spec = frameSpec(std::min(n, kCheckedTiles), 0);
         spec.checkTimers = true;
         timers_.add(draw(std::move(spec)));
+    }
+
+    /// When the curve breaks the rule, and that may be the machine's doing: where its segment begins.
+    [[nodiscard]] std::optional<int> firstNToMeasureAgain(int n) {
+        const auto criterion = result_.options.rule.criterion;
+        if (criterion != ResolutionCriterion::Off && criterion != ResolutionCriterion::Slope &&
+            criterion != ResolutionCriterion::SlopeFirst)
+            return std::nullopt;
+        const auto curve = resolution_.times().curve(resolution_.level(), n);
+        auto watch = watch_; // a question: the answer is answer()'s
+        const auto bend = watch.judge(segmentFrom(curve, watchedFromN_), ratioLimit());
+        if (!bend || !bend->breaksRule || !look_.wantsAnother(bend->lastN)) return std::nullopt;
+        progress_("the slope grew after N = " + std::to_string(bend->lastN) +
+                  ": measured again, for the machine may have been slower for a while");
+        return segmentFrom(curve, watchedFromN_).front().n;
+    }
+
+    /// Forgets the curve from firstN on. Returns the last N before.
+    int startAgainFrom(int firstN) {
+        const auto first = std::find_if(result_.points.begin(), result_.points.end(),
+                                        [&](const TimeNPoint& point) { return point.n >= firstN; });
+        const int before = first == result_.points.begin() ? 0 : std::prev(first)->n;
+        result_.earlierPasses.insert(result_.earlierPasses.end(), first, result_.points.end());
+        result_.points.erase(first, result_.points.end());
+        resolution_.forgetTimes();
+        watch_ = {};
+        return before;
     }
 
     /// Asks the rule about the sheet of n datasets, and follows it. Returns whether there is a new level, and
@@ -158,6 +225,7 @@ private:
         if (!decision.changed) return false;
         progress_(decision.reason);
         watch_ = {};
+        look_ = {};
         watchedFromN_ = 0;
         const auto lastN = resolution_.lastNOfLevel()[static_cast<std::size_t>(level)];
         const int firstN = decision.level > level && lastN ? *lastN + 1 : n;
@@ -190,6 +258,7 @@ private:
         result_.transitions.push_back(transition);
         if (!bend.breaksRule) return;
         watch_ = {};
+        look_ = {};
         watchedFromN_ = bend.lastN;
     }
 
@@ -207,7 +276,9 @@ private:
     const std::function<void(const std::string&)>& progress_;
     std::shared_ptr<const HostVolumeCache> memory_;
     RenderThread thread_;
+    MachinePace pace_;
     DynamicResolution resolution_;
+    SecondLook look_;      ///< at the segment that is being measured
     SlopeWatch watch_;     ///< finds the bends also when the rule is another one, or off
     int watchedFromN_ = 0; ///< the last bend that broke the rule unanswered
     TimerCheck timers_;

@@ -43,6 +43,8 @@ std::string jsonOf(const TimeNPoint& point) {
                        {"ms", jsonNumber(point.ms.value)},
                        {"ms_low", jsonNumber(point.ms.low)},
                        {"ms_high", jsonNumber(point.ms.high)},
+                       {"wall_ms", jsonNumber(point.wallMs)},
+                       {"slowdown", jsonNumber(point.slowdown)},
                        {"upload_ms", jsonNumber(point.uploadMs)},
                        {"io_ms", jsonNumber(point.ioMs)},
                        {"r_raw", jsonNumber(point.rawRatio)},
@@ -101,7 +103,8 @@ std::string csvRow(const TimeNOptions& options, const TimeNPoint& point, bool tr
            of(&SlopeRatio::low) + ',' + of(&SlopeRatio::high) + ',' + std::to_string(point.residentBytes) +
            ',' + std::to_string(point.hostBytes) + ',' + std::to_string(point.diskBytesPerFrame) + ',' +
            (trial ? '1' : '0') + ',' + options.scene.technique + ',' + (options.scene.shading ? '1' : '0') +
-           ',' + resolutionCriterionName(options.rule.criterion) + '\n';
+           ',' + resolutionCriterionName(options.rule.criterion) + ',' + number(point.wallMs) + ',' +
+           number(point.slowdown) + '\n';
 }
 
 } // namespace
@@ -158,6 +161,7 @@ std::string jsonOf(const TimeNResult& result) {
                        {"renderer", jsonString(result.renderer)},
                        {"points", jsonListOf(result.points)},
                        {"trials", jsonListOf(result.trials)},
+                       {"earlier_passes", jsonListOf(result.earlierPasses)},
                        {"segments", jsonListOf(result.segments)},
                        {"transitions", jsonListOf(result.transitions)},
                        {"texture_swapping_from", jsonOrNull(result.textureSwapN)},
@@ -173,7 +177,7 @@ std::string jsonOf(const TimeNResult& result) {
 std::string csvOf(std::span<const TimeNResult> results) {
     std::string text =
         "n,level,ms,ms_low,ms_high,upload_ms,io_ms,r_raw,r,r_low,r_high,resident_bytes,host_bytes,"
-        "disk_bytes_per_frame,trial,technique,shading,dr\n";
+        "disk_bytes_per_frame,trial,technique,shading,dr,wall_ms,slowdown\n";
     for (const auto& result : results) {
         for (const auto& point : result.points)
             text += csvRow(result.options, point, false);

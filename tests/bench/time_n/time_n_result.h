@@ -29,7 +29,10 @@ struct TimeNOptions {
 struct TimeNPoint {
     int n = 0;
     int level = 0;
-    MeasuredMedian ms;     ///< reading and uploading included
+    /// Reading and uploading included; but for reading, at the pace that the machine had at first.
+    MeasuredMedian ms;
+    double wallMs = 0.0;   ///< the median by the clock
+    double slowdown = 1.0; ///< of the machine meanwhile, against its pace at first (MachinePace)
     double uploadMs = 0.0; ///< medians of the frames' sums over tiles
     double ioMs = 0.0;
     std::optional<double> rawRatio;  ///< the paper's R of T_{N-2}, T_{N-1} and T_N
@@ -62,6 +65,8 @@ struct TimeNResult {
     std::string renderer;
     std::vector<TimeNPoint> points; ///< by N, each at the level that the rule gives a sheet of N datasets
     std::vector<TimeNPoint> trials; ///< measured at a finer level before the rule was found broken there
+    /// Of segments that were measured again, to see whether they bend for good.
+    std::vector<TimeNPoint> earlierPasses;
     std::vector<TimeNSegment> segments;
     std::vector<TimeNTransition> transitions;
     std::optional<int> textureSwapN; ///< the first N whose resting frames upload textures again

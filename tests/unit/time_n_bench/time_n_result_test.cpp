@@ -70,11 +70,13 @@ TEST(TimeNResult, CsvHasARowPerPointAndAsManyFieldsAsItsHeader) {
     TimeNResult result;
     result.points = {pointAt(1, 0, 10.0), pointAt(2, 0, 20.0)};
     result.trials = {pointAt(2, 0, 40.0)};
+    result.trials.front().wallMs = 50.0;
+    result.trials.front().slowdown = 1.25;
     result.options.rule.criterion = ResolutionCriterion::Slope;
     const auto csv = csvOf({&result, 1});
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * 17);
-    EXPECT_TRUE(csv.ends_with(",vr,0,slope\n")) << csv;
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * 19);
+    EXPECT_TRUE(csv.ends_with(",vr,0,slope,50,1.25\n")) << csv;
 }
 
 TEST(TimeNArguments, TilesAndRules) {
