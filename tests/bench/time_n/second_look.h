@@ -13,7 +13,8 @@ public:
     static constexpr int kMostPasses = 4;
 
     /// This pass found that the rule breaks after lastN. True: measure the segment again.
-    [[nodiscard]] bool wantsAnother(int lastN);
+    /// \param spacing  N between the points there, >= 1
+    [[nodiscard]] bool wantsAnother(int lastN, int spacing);
 
 private:
     std::optional<int> foundAfterN_; ///< by the pass before

@@ -196,7 +196,8 @@ private:
         const auto curve = resolution_.times().curve(resolution_.level(), n);
         auto watch = watch_; // a question: the answer is answer()'s
         const auto bend = watch.judge(segmentFrom(curve, watchedFromN_), ratioLimit());
-        if (!bend || !bend->breaksRule || !look_.wantsAnother(bend->lastN)) return std::nullopt;
+        if (!bend || !bend->breaksRule || !look_.wantsAnother(bend->lastN, next(bend->lastN) - bend->lastN))
+            return std::nullopt;
         progress_("the slope grew after N = " + std::to_string(bend->lastN) +
                   ": measured again, for the machine may have been slower for a while");
         return segmentFrom(curve, watchedFromN_).front().n;
