@@ -61,7 +61,7 @@ struct PictureDistance {
 
 struct MeasuredPath {
     RenderPath path = RenderPath::Shader;
-    MeasuredMedian ms; ///< of a frame, from state to host pixels
+    MeasuredMedian ms; ///< of a picture of each scene, from state to host pixels
     PictureDistance distance;
 };
 

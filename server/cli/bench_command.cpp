@@ -2,6 +2,7 @@
 #include "bench/inside_bench.h"
 #include "bench/volume_bench.h"
 #include "cli/bench/calibrate_command.h"
+#include "cli/bench/cases_table.h"
 #include "cli/bench/edit_bench.h"
 #include "cli/bench/http_bench.h"
 #include "cli/bench/import_bench.h"
@@ -20,21 +21,6 @@ namespace voxsheet::cli {
 
 namespace {
 
-void printTable(const nlohmann::json& result) {
-    for (const auto& row : result.at("cases")) {
-        std::string line;
-        for (const auto& [name, value] : row.items()) {
-            char text[64];
-            if (value.is_number_float())
-                std::snprintf(text, sizeof text, "%.2f", value.get<double>());
-            else
-                std::snprintf(text, sizeof text, "%s", value.dump().c_str());
-            line += (line.empty() ? "" : "  ") + name + " " + text;
-        }
-        std::printf("%s\n", line.c_str());
-    }
-}
-
 Action withOutput(CLI::App& app, std::function<nlohmann::json()> run) {
     auto json = std::make_shared<bool>(false);
     app.add_flag("--json", *json, "One JSON object on stdout instead of a table");
@@ -43,7 +29,7 @@ Action withOutput(CLI::App& app, std::function<nlohmann::json()> run) {
         if (*json)
             std::printf("%s\n", result.dump(2).c_str());
         else
-            printTable(result);
+            std::fputs(casesTable(result.at("cases")).c_str(), stdout);
         return kExitDone;
     };
 }

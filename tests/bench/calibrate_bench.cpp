@@ -51,25 +51,44 @@ PictureDistance distanceOf(const fields::Picture& picture, const fields::Picture
     return distance;
 }
 
-CalibratedTechnique calibrateTechnique(const std::vector<PathThread>& threads, const VolumeScene& scene,
-                                       Technique technique, RenderPath rule, int frames) {
+/// The pictures of all scenes add up; the first to be drawn are the reference. Also compiles and uploads.
+PictureDistance drawOnce(const PathThread& path, const std::vector<VolumeScene>& scenes, Technique technique,
+                         std::vector<fields::Picture>& references) {
+    PictureDistance sum;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const auto picture = pictureOf(drawTile(*path.thread, tileOf(scenes[i], technique, 0)).tiles[0]);
+        if (i == references.size()) references.push_back(picture);
+        const auto distance = distanceOf(picture, references[i]);
+        sum.pixelsApart += distance.pixelsApart;
+        sum.pixels += distance.pixels;
+    }
+    return sum;
+}
+
+double frameMs(const PathThread& path, const std::vector<VolumeScene>& scenes, Technique technique,
+               int frame) {
+    double sum = 0.0;
+    for (const auto& scene : scenes)
+        sum += drawTile(*path.thread, tileOf(scene, technique, frame)).wallMs;
+    return sum;
+}
+
+CalibratedTechnique calibrateTechnique(const std::vector<PathThread>& threads,
+                                       const std::vector<VolumeScene>& scenes, Technique technique,
+                                       RenderPath rule, int frames) {
     CalibratedTechnique result;
     result.rule = rule;
     std::vector<const PathThread*> taken;
     for (const RenderPath path : candidatePaths(technique))
         for (const PathThread& each : threads)
             if (each.path == path) taken.push_back(&each);
-    fields::Picture reference; // of the shaders, which come first
-    for (const PathThread* each : taken) {
-        // Also compiles and uploads.
-        const auto picture = pictureOf(drawTile(*each->thread, tileOf(scene, technique, 0)).tiles[0]);
-        if (reference.pixels.empty()) reference = picture;
-        result.measured.push_back({each->path, {}, distanceOf(picture, reference)});
-    }
+    std::vector<fields::Picture> references; // of the shaders, which come first
+    for (const PathThread* each : taken)
+        result.measured.push_back({each->path, {}, drawOnce(*each, scenes, technique, references)});
     std::vector<std::vector<double>> times(taken.size());
     for (int frame = 0; frame < frames; ++frame)
         for (std::size_t i = 0; i < taken.size(); ++i)
-            times[i].push_back(drawTile(*taken[i]->thread, tileOf(scene, technique, frame)).wallMs);
+            times[i].push_back(frameMs(*taken[i], scenes, technique, frame));
     for (std::size_t i = 0; i < taken.size(); ++i)
         result.measured[i].ms = measuredMedian(times[i]);
     result.chosen = fastestPath(technique, rule, result.measured);
@@ -83,11 +102,13 @@ Calibration calibrate(const CalibrateOptions& options,
     VolumeBenchOptions sceneOptions;
     sceneOptions.samples = options.samples;
     sceneOptions.pixels = options.pixels;
-    const VolumeScene scene(sceneOptions, benchVolumeName(sceneOptions, options.samples),
-                            benchVolume(sceneOptions, options.samples),
-                            benchLook(Material::Filled, options.samples));
+    const auto volume = benchVolume(sceneOptions, options.samples);
+    std::vector<VolumeScene> scenes;
+    for (const Material material : {Material::Filled, Material::Sparse, Material::SharpPeaks})
+        scenes.emplace_back(sceneOptions, benchVolumeName(sceneOptions, options.samples), volume,
+                            benchLook(material, options.samples));
     auto volumes = std::make_shared<MemoryVolumeProvider>();
-    volumes->add(scene.sampled().meta, scene.sampled().arrays);
+    volumes->add(volume->meta, volume->arrays);
     std::vector<PathThread> threads;
     for (const RenderPath path : {RenderPath::Shader, RenderPath::Simd})
         threads.push_back(startPath(path, volumes, options.device));
@@ -97,7 +118,7 @@ Calibration calibrate(const CalibrateOptions& options,
         if (candidatePaths(technique).size() < 2) continue;
         progress(techniqueName(technique));
         calibration.techniques.push_back(
-            calibrateTechnique(threads, scene, technique, rule.of(technique), options.frames));
+            calibrateTechnique(threads, scenes, technique, rule.of(technique), options.frames));
     }
     return calibration;
 }

@@ -1,5 +1,5 @@
-// Times every path of every technique that has more than one on this device, on one analytic volume, and
-// compares their pictures.
+// Times every path of every technique that has more than one on this device, on one analytic volume in three
+// looks (filled, sparse, sharp peaks), and compares their pictures.
 #pragma once
 
 #include "bench/volume_bench.h"
@@ -14,8 +14,9 @@ namespace voxsheet::bench {
 struct CalibrateOptions {
     int samples = 128; ///< of the volume, per axis
     int pixels = 384;  ///< of the square picture
-    int frames = 15;   ///< per path; from six on the medians' confidence is 95 %
-    int device = -1;   ///< as RenderOptions::device
+    int frames =
+        15; ///< per path, each one picture of every look; from six on the medians' confidence is 95 %
+    int device = -1; ///< as RenderOptions::device
 };
 
 struct CalibratedTechnique {
