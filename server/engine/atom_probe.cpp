@@ -2,7 +2,6 @@
 
 #include "volume/elements.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace voxsheet::engine {
@@ -28,22 +27,24 @@ std::optional<double> depthOnSphere(const glm::dvec3& centre, double radius, con
     return depth;
 }
 
+bool isKept(const ClipSpec& clip, const glm::dvec3& centre, const ObjectSamples* object) {
+    for (const ClipPlane& plane : clip.planes)
+        if (glm::dot(plane.normal, centre) < plane.offset) return false;
+    if (!clip.object) return true;
+    const Ray fromCentre{centre, {0.0, 0.0, 1.0}};
+    return ObjectCut(fromCentre, *clip.object, *object).keeps(0.0);
+}
+
 } // namespace
 
-std::optional<AtomHit> atomUnderRay(const TileSpec& tile, const CrystalSites& sites, const Ray& ray) {
+std::optional<AtomHit> atomUnderRay(const TileSpec& tile, const CrystalSites& sites, const Ray& ray,
+                                    const ObjectSamples* object) {
     if (!tile.crystal.atoms) return std::nullopt;
     const bool flat = tile.technique == Technique::Plane;
-    if (tile.clip.object && !flat) return std::nullopt;
-    const auto isKept = [&](const glm::dvec3& centre) {
-        return flat ||
-               std::all_of(tile.clip.planes.begin(), tile.clip.planes.end(), [&](const ClipPlane& plane) {
-                   return glm::dot(plane.normal, centre) >= plane.offset;
-               });
-    };
     const auto onPlane = flat ? depthOnPlane(tile.plane, ray) : std::nullopt;
     std::optional<AtomHit> nearest;
     for (const CrystalSite& site : sites.sites) {
-        if (!isKept(site.positionWorld)) continue;
+        if (!flat && !isKept(tile.clip, site.positionWorld, object)) continue;
         const double radius = tile.crystal.radiusScale * elementOf(site.atomicNumber).covalentRadius;
         auto depth = onPlane;
         if (!flat)

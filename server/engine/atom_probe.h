@@ -16,9 +16,10 @@ struct AtomHit {
 };
 
 /// The first sphere that the ray meets of those that the tile shows (CrystalSpec; an atom whose centre a clip
-/// plane removes is not shown). With technique plane: the disc that the plane cuts. Cells with a clip object
-/// are not asked for atoms: nothing. \param sites  of the tile's dataset and periods
+/// plane or the clip object removes is not shown). With technique plane: the disc that the plane cuts.
+/// \param sites   of the tile's dataset and periods
+/// \param object  not null if tile.clip.object is set
 [[nodiscard]] std::optional<AtomHit> atomUnderRay(const TileSpec& tile, const CrystalSites& sites,
-                                                  const Ray& ray);
+                                                  const Ray& ray, const ObjectSamples* object);
 
 } // namespace voxsheet::engine

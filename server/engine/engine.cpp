@@ -41,11 +41,6 @@ const char* hitName(HitKind kind) {
     return "middle";
 }
 
-std::optional<AtomHit> atomOnRay(const TileSpec& tile, const DatasetMeta& meta, const Ray& ray) {
-    if (!meta.crystal || !tile.crystal.atoms) return std::nullopt;
-    return atomUnderRay(tile, crystalSites(*meta.crystal, meta.grid, tile.periodic, tile.crystal.bonds), ray);
-}
-
 } // namespace
 
 Engine::Engine(EngineOptions options)
@@ -240,7 +235,7 @@ std::vector<ProbeValue> Engine::probePixel(const std::string& sheetName, const s
             .style.probeOpacity;
     const auto hit = implementation_->probes.underPixel(*tile.spec, meta, pixel, opacity);
     const Ray ray = pixelRay(tile.spec->camera, pixel, sizePixels);
-    auto atom = atomOnRay(*tile.spec, meta, ray);
+    auto atom = implementation_->probes.atomOnRay(*tile.spec, meta, ray);
     const bool flat = tile.spec->technique == Technique::Plane;
     // A volume's middle is a place to ask for, nothing that is in front of anything.
     if (atom && hit && !flat && hit->kind != HitKind::Middle && hit->depth < atom->depth) atom.reset();

@@ -93,6 +93,15 @@ std::optional<PixelHit> ProbeService::underPixel(const TileSpec& tile, const Dat
     return hit;
 }
 
+std::optional<AtomHit> ProbeService::atomOnRay(const TileSpec& tile, const DatasetMeta& meta,
+                                               const Ray& ray) {
+    if (!meta.crystal || !tile.crystal.atoms) return std::nullopt;
+    std::optional<ObjectSamples> object;
+    if (tile.clip.object) object = objectOf(*tile.clip.object);
+    return atomUnderRay(tile, crystalSites(*meta.crystal, meta.grid, tile.periodic, tile.crystal.bonds), ray,
+                        object ? &*object : nullptr);
+}
+
 std::optional<ValueExtremes> ProbeService::visible(const TileSpec& tile, const DatasetMeta& meta) {
     std::optional<ObjectSamples> object;
     if (tile.clip.object) object = objectOf(*tile.clip.object);

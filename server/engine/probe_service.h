@@ -1,6 +1,7 @@
 // Values of all cells at one point.
 #pragma once
 
+#include "engine/atom_probe.h"
 #include "engine/engine.h"
 #include "engine/pixel_probe.h"
 #include "engine/tile_maker.h"
@@ -34,6 +35,10 @@ public:
     /// \param opacity  as pixelHit()
     [[nodiscard]] std::optional<PixelHit> underPixel(const TileSpec& tile, const DatasetMeta& meta,
                                                      glm::dvec2 pixel, std::optional<double> opacity);
+
+    /// The atom that the ray meets first of those that the tile shows.
+    [[nodiscard]] std::optional<AtomHit> atomOnRay(const TileSpec& tile, const DatasetMeta& meta,
+                                                   const Ray& ray);
 
     /// As visibleRange().
     [[nodiscard]] std::optional<ValueExtremes> visible(const TileSpec& tile, const DatasetMeta& meta);
