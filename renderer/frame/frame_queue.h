@@ -24,6 +24,7 @@ struct FrameJob {
     FrameResult result;
     std::vector<bool> issued;                      ///< per tile: drawing has been queued
     std::vector<std::optional<TileLevels>> levels; ///< per tile, once it has been looked at
+    std::vector<std::optional<bool>> atHand;       ///< per tile, once it was looked at: its samples are
     std::size_t issuedCount = 0;
     std::size_t finishedCount = 0; ///< tiles with pixels or an error, and absent ones
     bool waitedForAbsent = false;  ///< a tile was left out after some waiting: the others wait no more

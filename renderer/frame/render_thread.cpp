@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/log.h"
 #include "frame/frame_queue.h"
+#include "frame/tile_order.h"
 #include "frame/tile_renderer.h"
 
 #include <algorithm>
@@ -71,6 +72,7 @@ public:
         job->result.tiles.resize(frame.tiles.size());
         job->issued.resize(frame.tiles.size());
         job->levels.resize(frame.tiles.size());
+        job->atHand.resize(frame.tiles.size());
         job->frame = std::move(frame);
         job->priority = priority;
         job->cancelled = std::move(cancelled);
@@ -214,24 +216,31 @@ private:
         }
     }
 
-    /// Tiles whose volume is resident come first: with a working set larger than the budget,
-    /// least-recently-used eviction in a fixed order would throw out every volume just before it is needed.
+    /// While it is drawn, the disk reads for the one after it.
     [[nodiscard]] std::size_t nextTile(FrameJob& job) const {
-        std::size_t first = job.issued.size();
-        for (std::size_t tile = 0; tile < job.issued.size(); ++tile) {
-            if (job.issued[tile]) continue;
-            if (job.frame.levels == LevelChoice::AtHand || isReady(job, tile)) return tile;
-            if (first == job.issued.size()) first = tile;
-        }
-        return first;
+        const auto choice = chooseTile(job.issued, [&](std::size_t tile) { return readiness(job, tile); });
+        if (choice.after && readiness(job, *choice.after) == TileReadiness::OnDisk)
+            renderer_->residency().readAhead(
+                renderer_->missing(job.frame.tiles[*choice.after], levelsOf(job, *choice.after)));
+        return choice.tile;
     }
 
-    [[nodiscard]] bool isReady(FrameJob& job, std::size_t tile) const {
+    [[nodiscard]] TileReadiness readiness(FrameJob& job, std::size_t tile) const {
+        if (job.frame.levels == LevelChoice::AtHand) return TileReadiness::Resident; // or left out
         try {
-            return renderer_->isResident(job.frame.tiles[tile], levelsOf(job, tile));
+            const auto& spec = job.frame.tiles[tile];
+            if (renderer_->isResident(spec, levelsOf(job, tile))) return TileReadiness::Resident;
+            if (!job.atHand[tile]) job.atHand[tile] = isAtHand(spec, levelsOf(job, tile));
+            return *job.atHand[tile] ? TileReadiness::AtHand : TileReadiness::OnDisk;
         } catch (const Error&) {
-            return true; // to be failed
+            return TileReadiness::Resident; // to be failed
         }
+    }
+
+    [[nodiscard]] bool isAtHand(const TileSpec& tile, const TileLevels& levels) const {
+        const auto missing = renderer_->missing(tile, levels);
+        return std::all_of(missing.begin(), missing.end(),
+                           [&](const VolumeKey& key) { return renderer_->residency().isAtHand(key); });
     }
 
     [[nodiscard]] const TileLevels& levelsOf(FrameJob& job, std::size_t tile) const {

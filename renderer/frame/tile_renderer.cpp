@@ -92,6 +92,10 @@ bool TileRenderer::isResident(const TileSpec& tile, const TileLevels& levels) co
     return isTileResident(residency_, tile, techniques_.paths(), levels);
 }
 
+std::vector<VolumeKey> TileRenderer::missing(const TileSpec& tile, const TileLevels& levels) const {
+    return missingVolumes(residency_, tile, techniques_.paths(), levels);
+}
+
 void TileRenderer::bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline) {
     static_cast<void>(techniques_.acquireBy(residency_, tile, levels, deadline));
 }

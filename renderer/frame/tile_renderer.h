@@ -60,6 +60,8 @@ public:
     /// The levels to draw from. Throws as levelsWithinBudget.
     [[nodiscard]] TileLevels levelsFor(const TileSpec& tile, LevelChoice choice) const;
     [[nodiscard]] bool isResident(const TileSpec& tile, const TileLevels& levels) const;
+    /// What has to be read before the tile can be drawn.
+    [[nodiscard]] std::vector<VolumeKey> missing(const TileSpec& tile, const TileLevels& levels) const;
     /// Works until the deadline on what the tile needs; the tile itself is not drawn. Throws as begin.
     void bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline);
     /// Makes the volumes resident, or finds what is at hand of them, and queues drawing, resolving and

@@ -38,15 +38,13 @@ void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
     const auto meta = source_->describe(key.dataset);
     if (out.size() != sliceBytes(*meta, key, zBegin, zCount).count)
         throw InvalidInput("slices to read", "the buffer has the wrong size");
-    const int depth = levelDims(meta->grid.dims, key.level).z;
     const std::size_t slice = sliceBytes(*meta, key, 0, 1).count;
-    const int blockSlices =
-        static_cast<int>(std::clamp(kBlockBytes / slice, std::size_t{1}, static_cast<std::size_t>(depth)));
-    const bool fits = keep_ && slice * static_cast<std::size_t>(depth) <= options_.budgetBytes;
+    const Blocks blocks = blocksOf(key);
+    const bool fits = keep_ && blocks.levelBytes <= options_.budgetBytes;
     for (int z = zBegin; z < zBegin + zCount;) {
-        const int number = z / blockSlices;
-        const int first = number * blockSlices;
-        const int count = std::min(blockSlices, depth - first);
+        const int number = z / blocks.slices;
+        const int first = blocks.first(number);
+        const int count = blocks.count(number);
         const int end = std::min(first + count, zBegin + zCount);
         const auto part = out.subspan(static_cast<std::size_t>(z - zBegin) * slice,
                                       static_cast<std::size_t>(end - z) * slice);
@@ -69,6 +67,42 @@ void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
         }
         z = end;
     }
+}
+
+bool HostVolumeCache::isAtHand(const VolumeKey& key) const {
+    const Blocks blocks = blocksOf(key);
+    if (!keep_) return true;
+    if (!isKept({key, kMinMaxBlock})) return false;
+    for (int number = 0; blocks.first(number) < blocks.depth; ++number)
+        if (!isKept({key, number})) return false;
+    return true;
+}
+
+void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount) const {
+    (void)sliceBytes(*source_->describe(key.dataset), key, zBegin, zCount); // are there
+    const Blocks blocks = blocksOf(key);
+    if (!keep_ || 2 * blocks.levelBytes > options_.budgetBytes) return;
+    for (int number = zBegin / blocks.slices; blocks.first(number) < zBegin + zCount; ++number) {
+        const BlockKey blockKey{key, number};
+        if (!isKept(blockKey)) keep(blockKey, readBlock(key, blocks.first(number), blocks.count(number)));
+    }
+    if (zBegin + zCount == blocks.depth && !isKept({key, kMinMaxBlock})) (void)readMinMax(key);
+}
+
+HostVolumeCache::Blocks HostVolumeCache::blocksOf(const VolumeKey& key) const {
+    const auto meta = source_->describe(key.dataset);
+    const std::size_t slice = sliceBytes(*meta, key, 0, 1).count;
+    Blocks blocks;
+    blocks.depth = levelDims(meta->grid.dims, key.level).z;
+    blocks.slices = static_cast<int>(
+        std::clamp(kBlockBytes / slice, std::size_t{1}, static_cast<std::size_t>(blocks.depth)));
+    blocks.levelBytes = std::uint64_t{slice} * static_cast<std::uint64_t>(blocks.depth);
+    return blocks;
+}
+
+bool HostVolumeCache::isKept(const BlockKey& key) const {
+    const std::lock_guard lock(mutex_);
+    return blocks_.count(key) != 0;
 }
 
 std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::readBlock(const VolumeKey& key, int zBegin,

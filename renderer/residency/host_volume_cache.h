@@ -4,6 +4,7 @@
 #include "residency/host_cache_state.h"
 #include "volume/volume_provider.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <list>
@@ -41,6 +42,10 @@ public:
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
+    /// All of its samples and its min-max grid are kept, or nothing is yet.
+    [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
+    /// Of levels that fit the budget twice, so that those before them stay.
+    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override;
 
     /// While all that is looked at fits on the GPU, a second copy in host memory is of no use.
     void keepFromNowOn() { keep_ = true; }
@@ -67,6 +72,17 @@ private:
     };
     static constexpr int kMinMaxBlock = -1;
 
+    /// How a level is divided.
+    struct Blocks {
+        int slices = 1; ///< of each, but for the last
+        int depth = 1;  ///< slices of the level
+        std::uint64_t levelBytes = 0;
+
+        [[nodiscard]] int first(int block) const { return block * slices; }
+        [[nodiscard]] int count(int block) const { return std::min(slices, depth - first(block)); }
+    };
+    [[nodiscard]] Blocks blocksOf(const VolumeKey& key) const;
+    [[nodiscard]] bool isKept(const BlockKey& key) const; ///< which is no use of it
     [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
     void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
     [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;

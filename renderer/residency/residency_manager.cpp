@@ -334,6 +334,12 @@ bool ResidencyManager::evictOne(std::optional<WantedPriority> below, const Pendi
     return true;
 }
 
+// --- before it is asked for ---
+
+bool ResidencyManager::isAtHand(const VolumeKey& key) const { return provider_->isAtHand(key); }
+
+void ResidencyManager::readAhead(std::vector<VolumeKey> keys) { reader_->readAhead(std::move(keys)); }
+
 // --- what it would take ---
 
 std::uint64_t ResidencyManager::bytesOf(const VolumeKey& key, TexelForm form) const {

@@ -93,6 +93,12 @@ public:
     bool advance(Deadline deadline);
     [[nodiscard]] bool isIdle() const { return queue_.empty(); }
 
+    // --- before it is asked for ---
+    /// Whether its samples can be had without waiting for a disk. Throws NotFound.
+    [[nodiscard]] bool isAtHand(const VolumeKey& key) const;
+    /// Reads samples into host memory, when nothing else is read. Replaces what was asked for before.
+    void readAhead(std::vector<VolumeKey> keys);
+
     // --- what it would take ---
     /// Bytes of the texture. Throws NotFound as acquire.
     [[nodiscard]] std::uint64_t bytesOf(const VolumeKey& key, TexelForm form) const;

@@ -1,8 +1,19 @@
 #include "residency/slice_reader.h"
 
+#include <algorithm>
+#include <exception>
+#include <optional>
 #include <utility>
 
 namespace voxsheet {
+
+namespace {
+
+constexpr std::size_t kAheadBytes = std::size_t{1} << 20;
+/// Between two pieces of one volume its upload asks for nothing: no time to begin another one.
+constexpr auto kAheadAfter = std::chrono::milliseconds(1);
+
+} // namespace
 
 SliceReader::SliceReader(std::shared_ptr<const VolumeProvider> provider)
     : provider_(std::move(provider)), thread_([this] { run(); }) {}
@@ -47,18 +58,64 @@ std::future<MinMaxGrid> SliceReader::readMinMax(VolumeKey key) {
         [provider = provider_, key = std::move(key)] { return provider->readMinMax(key); });
 }
 
+void SliceReader::readAhead(std::vector<VolumeKey> keys) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (keys == asked_) return;
+        ahead_.assign(keys.begin(), keys.end());
+        nextAhead_ = 0;
+        asked_ = std::move(keys);
+        aheadFrom_ = std::chrono::steady_clock::now() + kAheadAfter;
+    }
+    wake_.notify_all();
+}
+
 void SliceReader::run() {
     for (;;) {
         std::packaged_task<void()> task;
+        std::optional<Ahead> ahead;
         {
             std::unique_lock lock(mutex_);
-            wake_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+            wake_.wait(lock, [this] { return ending_ || !waiting_.empty() || !ahead_.empty(); });
+            wake_.wait_until(lock, aheadFrom_, [this] { return ending_ || !waiting_.empty(); });
             if (ending_) return;
-            task = std::move(waiting_.front());
-            waiting_.pop_front();
+            if (waiting_.empty()) {
+                if (std::chrono::steady_clock::now() < aheadFrom_ || ahead_.empty()) continue;
+                ahead = Ahead{ahead_.front(), nextAhead_};
+            } else {
+                task = std::move(waiting_.front());
+                waiting_.pop_front();
+            }
+        }
+        if (ahead) {
+            readAheadSome(*ahead);
+            continue;
         }
         task();
+        const std::lock_guard lock(mutex_);
+        aheadFrom_ = std::chrono::steady_clock::now() + kAheadAfter;
     }
+}
+
+void SliceReader::readAheadSome(const Ahead& from) {
+    std::optional<int> next; // nothing: the level is at its end, or fails
+    try {
+        const auto meta = provider_->describe(from.key.dataset);
+        const int depth = levelDims(meta->grid.dims, from.key.level).z;
+        const auto slice = sliceBytes(*meta, from.key, 0, 1).count;
+        const auto slices = static_cast<int>(
+            std::clamp(kAheadBytes / slice, std::size_t{1}, static_cast<std::size_t>(depth - from.zBegin)));
+        provider_->readAhead(from.key, from.zBegin, slices);
+        if (from.zBegin + slices < depth) next = from.zBegin + slices;
+    } catch (const std::exception&) {
+        next.reset();
+    }
+    const std::lock_guard lock(mutex_);
+    if (ahead_.empty() || ahead_.front() != from.key || nextAhead_ != from.zBegin)
+        return; // others are asked for
+    if (!next) ahead_.pop_front();
+    nextAhead_ = next.value_or(0);
+    if (ahead_.empty()) asked_.clear(); // to be asked for again once they have gone
 }
 
 } // namespace voxsheet

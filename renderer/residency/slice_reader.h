@@ -4,6 +4,7 @@
 
 #include "volume/volume_provider.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -23,7 +24,8 @@ struct SliceRequest {
     std::vector<std::byte> buffer; ///< what they are read into, given back as the result; of their size
 };
 
-/// Requests are served one after another, in their order. Its members may be called from any thread.
+/// Requests are served one after another, in their order, and levels are read ahead while none comes. Its
+/// members may be called from any thread.
 class SliceReader {
 public:
     explicit SliceReader(std::shared_ptr<const VolumeProvider> provider);
@@ -36,15 +38,29 @@ public:
     [[nodiscard]] std::future<std::vector<std::byte>> read(SliceRequest request);
     [[nodiscard]] std::future<MinMaxGrid> readMinMax(VolumeKey key);
 
+    /// Brings levels into the provider's memory (VolumeProvider::readAhead), about a MiB between two looks at
+    /// the requests. Other levels than before replace what is left of those. What fails is left to who reads
+    /// it.
+    void readAhead(std::vector<VolumeKey> keys);
+
 private:
     template <typename Result, typename Work>
     [[nodiscard]] std::future<Result> enqueue(Work work);
     void run();
+    struct Ahead {
+        VolumeKey key;
+        int zBegin = 0;
+    };
+    void readAheadSome(const Ahead& from);
 
     std::shared_ptr<const VolumeProvider> provider_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::packaged_task<void()>> waiting_;
+    std::vector<VolumeKey> asked_;                    ///< readAhead()
+    std::deque<VolumeKey> ahead_;                     ///< of those, what is left
+    std::chrono::steady_clock::time_point aheadFrom_; ///< unless a request comes first
+    int nextAhead_ = 0;                               ///< slice of the first of them
     bool ending_ = false;
     std::thread thread_;
 };

@@ -168,6 +168,20 @@ bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, con
            (!wantsGradientTexture(tile, paths) || residency.areGradientsResident(drawn.key, drawn.form));
 }
 
+std::vector<VolumeKey> missingVolumes(const ResidencyManager& residency, const TileSpec& tile,
+                                      const RenderPaths& paths, const TileLevels& levels) {
+    std::vector<VolumeKey> missing;
+    const auto add = [&](const std::optional<Part>& part) {
+        if (part && !residency.isResident(part->key, part->form)) missing.push_back(part->key);
+    };
+    add(drawnPart(tile, paths, levels.volume));
+    add(clipPart(tile, paths, levels.clipObject));
+    add(colourPart(tile, paths, levels.colours));
+    for (std::size_t i = 0; i < tile.layers.volumes.size(); ++i)
+        add(layerPart(tile, paths, i, levels.layers.at(i)));
+    return missing;
+}
+
 std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,
                                          const RenderPaths& paths, const TileLevels& levels,
                                          Deadline deadline, const DerivedTextureBuilder& buildGradients) {

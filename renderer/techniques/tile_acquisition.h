@@ -4,6 +4,8 @@
 #include "techniques/render_paths.h"
 #include "techniques/tile_volumes.h"
 
+#include <vector>
+
 namespace voxsheet {
 
 /// True when the tile's light reads a gradient texture.
@@ -20,6 +22,10 @@ namespace voxsheet {
 
 [[nodiscard]] bool isTileResident(const ResidencyManager& residency, const TileSpec& tile,
                                   const RenderPaths& paths, const TileLevels& levels);
+
+/// What has to be read before it is.
+[[nodiscard]] std::vector<VolumeKey> missingVolumes(const ResidencyManager& residency, const TileSpec& tile,
+                                                    const RenderPaths& paths, const TileLevels& levels);
 
 /// Empty as long as it must be called again. Throws as ResidencyManager::acquire.
 [[nodiscard]] std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,

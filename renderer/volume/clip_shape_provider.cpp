@@ -41,4 +41,10 @@ void ClipShapeProvider::dropPages(const VolumeKey& key, int zBegin, int zCount) 
     providerOf(key.dataset).dropPages(key, zBegin, zCount);
 }
 
+bool ClipShapeProvider::isAtHand(const VolumeKey& key) const { return providerOf(key.dataset).isAtHand(key); }
+
+void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount) const {
+    providerOf(key.dataset).readAhead(key, zBegin, zCount);
+}
+
 } // namespace voxsheet

@@ -21,6 +21,8 @@ public:
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
+    [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
+    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override;
 
 private:
     /// The provider that has the dataset; a clip shape has been sampled when this returns.

@@ -35,4 +35,8 @@ ByteRange sliceBytes(const DatasetMeta& meta, const VolumeKey& key, int zBegin, 
 
 void VolumeProvider::dropPages(const VolumeKey&, int, int) const {}
 
+bool VolumeProvider::isAtHand(const VolumeKey&) const { return true; }
+
+void VolumeProvider::readAhead(const VolumeKey&, int, int) const {}
+
 } // namespace voxsheet

@@ -52,6 +52,14 @@ public:
     /// Tells the operating system that these slices will not be read soon again, so that it need not keep
     /// them in its page cache. For providers that read files; others do nothing. Throws as readSlices.
     virtual void dropPages(const VolumeKey& key, int zBegin, int zCount) const;
+
+    /// Whether the whole level can be read without waiting for a disk, as far as the provider knows. Throws
+    /// NotFound.
+    [[nodiscard]] virtual bool isAtHand(const VolumeKey& key) const;
+
+    /// Brings slices that will be read soon into the memory that the provider keeps, if it keeps any; with
+    /// the level's last slice its min-max grid, too. Throws as readSlices.
+    virtual void readAhead(const VolumeKey& key, int zBegin, int zCount) const;
 };
 
 } // namespace voxsheet

@@ -71,6 +71,44 @@ std::vector<std::byte> readLevel(const VolumeProvider& volumes, int volume) {
     return read(volumes, {Disk::nameOf(volume), 0, 0, 0}, 0, kDims.z);
 }
 
+TEST(HostVolumeCache, WhatIsReadAheadIsAtHandAndNotReadAgain) {
+    const auto disk = std::make_shared<Disk>(2);
+    const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel});
+    const VolumeKey key{"v0", 0, 0, 0};
+    EXPECT_FALSE(cache.isAtHand(key));
+    cache.readAhead(key, 0, 20); // two blocks of 16 slices
+    EXPECT_EQ(disk->bytesRead, 32 * kSlice);
+    EXPECT_FALSE(cache.isAtHand(key));
+    cache.readAhead(key, 0, kDims.z);
+    EXPECT_EQ(disk->bytesRead, kLevel);
+    EXPECT_TRUE(cache.isAtHand(key));
+    EXPECT_FALSE(cache.isAtHand({"v1", 0, 0, 0}));
+    const auto gridBytes = disk->readMinMax(key).ranges.size() * sizeof(MinMaxGrid::Range);
+    const auto before = cache.state();
+    EXPECT_EQ(before.diskBytes, kLevel + gridBytes);
+    EXPECT_EQ(readLevel(cache, 0), readLevel(*disk, 0));
+    (void)cache.readMinMax(key);
+    EXPECT_EQ(cache.state().diskBytes, before.diskBytes);
+    EXPECT_EQ(cache.state().misses, before.misses);
+    EXPECT_THROW(cache.readAhead(key, 70, 20), InvalidInput);
+    EXPECT_THROW((void)cache.isAtHand({"v0", 0, 0, 9}), NotFound);
+}
+
+TEST(HostVolumeCache, NothingIsReadAheadThatWouldPushOutWhatIsBeingDrawn) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel - 1});
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z);
+    EXPECT_EQ(disk->bytesRead, 0U);
+}
+
+TEST(HostVolumeCache, BeforeAnythingIsKeptAllIsEquallyFarAway) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel, .keep = false});
+    EXPECT_TRUE(cache.isAtHand({"v0", 0, 0, 0}));
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z);
+    EXPECT_EQ(disk->bytesRead, 0U);
+}
+
 TEST(HostVolumeCache, ReadsFromDiskOnce) {
     const auto disk = std::make_shared<Disk>(1);
     const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel});

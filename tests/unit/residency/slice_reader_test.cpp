@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -17,13 +18,35 @@ namespace {
 class GatedProvider : public VolumeProvider {
 public:
     std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override {
-        throw NotFound(dataset, "this provider describes nothing");
+        if (dataset != "large") throw NotFound(dataset, "this provider describes nothing else");
+        auto meta = std::make_shared<DatasetMeta>();
+        meta->key = dataset;
+        meta->grid.dims = glm::ivec3(1024, 1024, 3); // a MiB each slice
+        meta->fields.emplace_back().storedType = ScalarType::U8;
+        return meta;
+    }
+    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override {
+        const std::lock_guard lock(mutex);
+        ahead.push_back(key.dataset + " " + std::to_string(zBegin) + "+" + std::to_string(zCount));
+    }
+    [[nodiscard]] std::vector<std::string> waitForAhead(std::size_t count) const {
+        for (;;) {
+            {
+                const std::lock_guard lock(mutex);
+                if (ahead.size() >= count) return ahead;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
     }
     void readSlices(const VolumeKey& key, int zBegin, int, std::span<std::byte> out) const override {
         ++reads;
         while (closed)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (key.dataset == "bad") throw IoError("bad", "its disk is gone", "try again");
+        {
+            const std::lock_guard lock(mutex);
+            aheadAtLastRead = ahead.size();
+        }
         std::fill(out.begin(), out.end(), static_cast<std::byte>(zBegin));
     }
     MinMaxGrid readMinMax(const VolumeKey&) const override {
@@ -33,6 +56,9 @@ public:
     }
     std::atomic<bool> closed{false};
     mutable std::atomic<int> reads{0};
+    mutable std::mutex mutex;
+    mutable std::vector<std::string> ahead; ///< what was read ahead
+    mutable std::size_t aheadAtLastRead = 0;
 };
 
 SliceRequest request(const std::string& dataset, int zBegin) {
@@ -51,6 +77,30 @@ TEST(SliceReader, GivesWhatWasAskedForInItsOrderAndErrorsToWhomTheyBelong) {
     EXPECT_EQ(first.get(), std::vector<std::byte>(4, std::byte{7}));
     EXPECT_EQ(last.get(), std::vector<std::byte>(4, std::byte{9}));
     EXPECT_THROW((void)bad.get(), IoError);
+}
+
+TEST(SliceReader, ReadsAheadByPiecesWhileNobodyWaits) {
+    const auto provider = std::make_shared<GatedProvider>();
+    SliceReader reader(provider);
+    reader.readAhead({{"gone", 0, 0, 0}, {"large", 0, 0, 0}});
+    EXPECT_EQ(provider->waitForAhead(3), (std::vector<std::string>{"large 0+1", "large 1+1", "large 2+1"}));
+    reader.readAhead({{"large", 0, 0, 0}}); // it may have gone meanwhile
+    EXPECT_EQ(provider->waitForAhead(6).back(), "large 2+1");
+}
+
+TEST(SliceReader, RequestsGoBeforeWhatIsReadAhead) {
+    const auto provider = std::make_shared<GatedProvider>();
+    provider->closed = true;
+    SliceReader reader(provider);
+    auto first = reader.read(request("a", 1));
+    auto second = reader.read(request("a", 2));
+    while (provider->reads == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    reader.readAhead({{"large", 0, 0, 0}});
+    provider->closed = false;
+    (void)second.get();
+    EXPECT_EQ(provider->waitForAhead(3).size(), 3U);
+    EXPECT_EQ(provider->aheadAtLastRead, 0U);
 }
 
 TEST(SliceReader, NobodyWaitsForASlowDiskUnlessAsked) {
