@@ -30,7 +30,10 @@ struct Caster {
     // The samples at `depth` that stand for `length` of depth each.
     HWY_INLINE void takeSample(Float depth, Float length, Mask near) {
         const Vec3 at = indexAt(path.ray, depth);
-        Entry entry = classify(job.table, trilinear<format>(job.volume, at));
+        const Float texel = trilinear<format>(job.volume, at);
+        const Float place = tablePlace(job.table, texel);
+        if (job.layerCount == 0 && !any(both(length > zero(), mayShow(job.table, place)))) return;
+        Entry entry = entryOf(job.table, texel, place);
         if (job.layerCount > 0)
             entry = blended(entry, depth, at, length, near);
         else if (job.light.enabled) {

@@ -27,6 +27,7 @@ struct SampledTable {
     float mappedFromTexel[2] = {1.0F, 0.0F};
     float entryFromMapped[2] = {1.0F, 0.0F};
     float lastEntry = 0.0F;
+    float shownBegin = 0.0F, shownEnd = 3.0e38F; ///< entries outside [shownBegin, shownEnd) show nothing
 };
 
 /// Distances to the nearest cell that shows something (stages/occupancy.h), or bounds of MIP.
@@ -36,7 +37,7 @@ struct SampledCells {
     float cellsPerTexture[3] = {1.0F, 1.0F, 1.0F};
     std::int32_t cells[3] = {1, 1, 1};
     bool periodic[3] = {false, false, false};
-    float cellSamples = 4.0F;
+    float cellSamples = 4.0F; ///< stages/occupancy.h
 };
 
 } // namespace voxsheet::simd

@@ -349,18 +349,29 @@ HWY_INLINE Float scaledValue(int scale, Float value) {
     return value;
 }
 
-/// Chromaticity and extinction of texels; nothing where they are NaN.
-HWY_INLINE Entry classify(const SampledTable& table, Float texel) {
-    const Mask absent = isNan(texel);
-    const Float known = pick(absent, zero(), texel);
+/// Where texels stand in the table: its entry is the whole part.
+HWY_INLINE Float tablePlace(const SampledTable& table, Float texel) {
+    const Float known = pick(isNan(texel), zero(), texel);
     const Float mapped = scaledValue(
         table.scale, hn::MulAdd(known, num(table.mappedFromTexel[0]), num(table.mappedFromTexel[1])));
-    const Float entry =
-        clampTo(hn::MulAdd(mapped, num(table.entryFromMapped[0]), num(table.entryFromMapped[1])), 0.0F,
-                table.lastEntry);
-    Entry result = entryAt(table.entries, truncated(entry));
-    result.a = hn::IfThenZeroElse(absent, result.a);
+    return clampTo(hn::MulAdd(mapped, num(table.entryFromMapped[0]), num(table.entryFromMapped[1])), 0.0F,
+                   table.lastEntry);
+}
+
+/// Places where the table may show something.
+HWY_INLINE Mask mayShow(const SampledTable& table, Float place) {
+    return both(place >= num(table.shownBegin), place < num(table.shownEnd));
+}
+
+/// Chromaticity and extinction of texels with these places; nothing where they are NaN.
+HWY_INLINE Entry entryOf(const SampledTable& table, Float texel, Float place) {
+    Entry result = entryAt(table.entries, truncated(place));
+    result.a = hn::IfThenZeroElse(isNan(texel), result.a);
     return result;
+}
+
+HWY_INLINE Entry classify(const SampledTable& table, Float texel) {
+    return entryOf(table, texel, tablePlace(table, texel));
 }
 
 // --- pre-integration: stages/preintegration.glsl ---

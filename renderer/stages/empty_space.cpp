@@ -52,8 +52,9 @@ std::vector<std::uint8_t> occupiedMarks(const TransferTable& table, const Reside
 }
 
 std::vector<std::uint8_t> crossedDistances(const std::vector<double>& values, const ResidentVolume& volume) {
-    return distancesOf(
-        crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values, kShortReach), volume);
+    return distancesOf(crossedCells(*volume.minMax, volume.dims, volume.meta->grid.periodic, values,
+                                    shortReach(volume.dims)),
+                       volume);
 }
 
 /// In signed texels, as rays compare them; rounded up, so that each bound stays one.
@@ -126,7 +127,7 @@ void EmptySpaceStage::bindOccupied(const gpu::Program& program,
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                                   const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, values, kShortReach);
+    auto key = keyOf(volume, nullptr, values, shortReach(volume.dims));
     const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
     if (cells == nullptr) cells = &insertDistances(std::move(key), volume, crossedDistances(values, volume));
     bind(program, volume, *cells);
@@ -164,7 +165,7 @@ EmptySpaceStage::occupiedOnHost(const std::shared_ptr<const TransferTable>& tabl
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::crossedOnHost(const std::vector<double>& values,
                                                                  const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, values, kShortReach);
+    auto key = keyOf(volume, nullptr, values, shortReach(volume.dims));
     const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
     if (cells != nullptr) return *cells;
     return insertOnHost(std::move(key), {readable(crossedDistances(values, volume)), {}});

@@ -39,7 +39,7 @@ public:
                       const ResidentVolume& volume, int reachSamples,
                       const std::optional<StrideSettings>& strides = {});
     /// For isosurfaces: cells are 0 where one of the values may be crossed, else emptyDistances(). Of
-    /// kShortReach.
+    /// shortReach().
     void bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                      const ResidentVolume& volume);
     /// For maximum projection: cells hold the largest texel (or the largest negated one, where values fall

@@ -82,7 +82,7 @@ int layerReachSamples(const ResidentVolume& volume, const ResidentVolume& layer,
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max(largest, glm::length(rows[axis] / glm::dvec3(volume.dims)) * layer.dims[axis]);
     const int all = std::max({layer.dims.x, layer.dims.y, layer.dims.z});
-    return std::max(kShortReach,
+    return std::max(shortReach(layer.dims),
                     static_cast<int>(std::min(std::ceil(0.5 * stretchVoxels * largest), double(all))));
 }
 

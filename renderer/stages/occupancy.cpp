@@ -8,8 +8,6 @@
 namespace voxsheet {
 namespace {
 
-constexpr long kMaxSmallCells = 1L << 24;
-
 /// The bricks that a cell and its surroundings touch on one axis, without repeats.
 std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samples, int bricks,
                                             int brickSamples, bool periodic, int reachSamples) {
@@ -142,11 +140,12 @@ std::vector<std::uint8_t> nearestAlongAxis(const std::vector<std::uint8_t>& dist
 
 CellLayout CellLayout::of(const glm::ivec3& dims) {
     CellLayout layout;
-    const auto small = (dims + 3) / 4;
-    if (static_cast<long>(small.x) * small.y * small.z > kMaxSmallCells) layout.cellSamples = 8;
+    layout.cellSamples = MinMaxGrid::brickSamplesFor(dims);
     layout.cells = (dims + layout.cellSamples - 1) / layout.cellSamples;
     return layout;
 }
+
+int shortReach(const glm::ivec3& dims) { return std::min(2, CellLayout::of(dims).cellSamples / 2); }
 
 std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                         const glm::bvec3& periodic, const TransferTable& table,

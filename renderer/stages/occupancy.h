@@ -16,14 +16,15 @@ namespace voxsheet {
 /// (clamped at the ends, or wrapped on periodic axes), so that one look-up in the middle of a stretch of a
 /// ray of length <= 2 * reach answers for all of the stretch.
 struct CellLayout {
-    int cellSamples = 4; ///< 4, or 8 where cells of 4 would be more than 2^24
+    int cellSamples = 4; ///< as of the bricks of MinMaxGrid
     glm::ivec3 cells{0}; ///< ceil(dims / cellSamples)
 
     [[nodiscard]] static CellLayout of(const glm::ivec3& dims);
 };
 
-inline constexpr int kShortReach = 2; ///< where one look-up leads far ahead (emptyDistances)
-inline constexpr int kLongReach = 4;  ///< where each stretch is looked up
+/// Where one look-up leads far ahead (emptyDistances): half a cell, 2 at most.
+[[nodiscard]] int shortReach(const glm::ivec3& dims);
+inline constexpr int kLongReach = 4; ///< where each stretch is looked up
 
 /// 1 where something within reach can have opacity > 0, else 0; x fastest. Conservative.
 [[nodiscard]] std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,

@@ -126,11 +126,14 @@ std::uint8_t exponentOf(const MinMaxGrid::Range& range, const TableChanges& chan
     const double variation = changes.variation(entries);
     const double width = static_cast<double>(entries.last - entries.first);
     const double light = settings.lit ? extinction : 0.0;
+    // Ranges are over one sample more on both sides: over 5 voxels of a brick of 4.
+    const double brickWidth = std::min(1.0, (settings.brickSamples + 1) / 5.0);
     for (int exponent = longest; exponent > 0; --exponent) {
         const double voxels = settings.sampleDistanceVoxels * static_cast<double>(1 << exponent);
-        const double bend = changes.bend(entries, width * std::min(1.0, voxels / 3.0));
+        const double ofBrick = voxels / brickWidth;
+        const double bend = changes.bend(entries, width * std::min(1.0, ofBrick / 3.0));
         const double error =
-            voxels * settings.unitsPerVoxel * (bend + variation * voxels / 48.0 + light * voxels / 24.0);
+            voxels * settings.unitsPerVoxel * (bend + variation * ofBrick / 48.0 + light * voxels / 24.0);
         if (error <= kLargestStrideError) return static_cast<std::uint8_t>(exponent);
     }
     return 0;

@@ -2,7 +2,8 @@
 //
 // A sample stands for a stretch of h voxels with what the table holds at its middle. Over such a stretch the
 // values change by at most their range in the brick, and by about h / 3 of it where they change evenly over
-// the brick. The error of the stretch is reckoned as
+// a brick of 4 samples (in one of 2, which is narrower, h is 5/3 as much). The error of the stretch is
+// reckoned as
 //     h u (max over the brick's values v of |mean of E over v +- change / 2 - E(v)|
 //          + variation of E over the brick's values h / 48  +  light h / 24)
 // (widths of means rounded down to powers of 2 entries) with E = extinction times (rgb, 1) as a function of
@@ -26,6 +27,7 @@ struct StrideSettings {
     double sampleDistanceVoxels = 0.5; ///< of stride 1
     double unitsPerVoxel = 1.0;        ///< world length of a voxel of the drawn level / unitLength
     bool lit = false;
+    int brickSamples = 4; ///< of the min-max grid
 
     bool operator==(const StrideSettings&) const = default;
 };

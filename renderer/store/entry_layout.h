@@ -11,7 +11,7 @@
 namespace voxsheet::store {
 
 /// Written into meta.json. Entries of another version are treated as absent.
-inline constexpr int kEntryVersion = 2;
+inline constexpr int kEntryVersion = 3;
 
 inline constexpr const char* kMetaFile = "meta.json";
 /// Held shared by readers, exclusively by whoever writes or deletes the entry; its mtime is the entry's last

@@ -72,6 +72,11 @@ simd::SampledTable sampledTable(const std::vector<glm::vec4>& entries, const Tra
     put(sampled.mappedFromTexel, mapping.mappedFromTexel);
     put(sampled.entryFromMapped, mapping.entryFromMapped);
     sampled.lastEntry = static_cast<float>(entries.size() - 1);
+    const auto shows = [](const glm::vec4& entry) { return entry.w > 0.0F; };
+    const auto begin = std::find_if(entries.begin(), entries.end(), shows);
+    const auto end = std::find_if(entries.rbegin(), entries.rend(), shows).base();
+    sampled.shownBegin = static_cast<float>(begin - entries.begin());
+    sampled.shownEnd = static_cast<float>(end - entries.begin());
     return sampled;
 }
 
@@ -224,7 +229,7 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.sampleDistanceVoxels = static_cast<float>(tile.sampleDistanceVoxels);
     job.light = lightOf(tile, volume);
     job.unitsPerRadius = static_cast<float>(frame.radiusWorld / tile.unitLengthWorld);
-    const int reach = tile.technique == Technique::Mip ? kLongReach : kShortReach;
+    const int reach = tile.technique == Technique::Mip ? kLongReach : shortReach(volume.dims);
     job.chunkSamples = chunkSamples(tile.sampleDistanceVoxels, reach);
     if (tile.technique == Technique::Isosurface) setSurfaces(job.surfaces, request);
     job.table = sampledTable(tableOf(tile.transfer), *tile.transfer, volume);
@@ -248,8 +253,7 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
         job.cells = sampledCells(emptySpace.largestOnHost(volume), volume);
         break;
     default:
-        job.cells =
-            sampledCells(emptySpace.occupiedOnHost(tile.transfer, volume, kShortReach, strides), volume);
+        job.cells = sampledCells(emptySpace.occupiedOnHost(tile.transfer, volume, reach, strides), volume);
     }
     return job;
 }

@@ -1,5 +1,6 @@
 #include "volume/min_max_grid.h"
 
+#include "volume/grid.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace voxsheet {
 namespace {
 
 constexpr long kMaxSmallBricks = 1L << 24;
+constexpr long kSmallVolumeSamples = 1L << 20;
 
 /// The samples that trilinear interpolation inside brick `b` can touch: one more on both sides, clamped or
 /// wrapped.
@@ -108,6 +110,7 @@ void buildRanges(const StoredArray& level, const glm::bvec3& periodic, MinMaxGri
 } // namespace
 
 int MinMaxGrid::brickSamplesFor(const glm::ivec3& dims) {
+    if (sampleCount(dims) <= kSmallVolumeSamples) return 2;
     const auto small = (glm::tvec3<long>(dims) + 3L) / 4L;
     return small.x * small.y * small.z > kMaxSmallBricks ? 8 : 4;
 }

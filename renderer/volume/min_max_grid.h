@@ -15,8 +15,9 @@ namespace voxsheet {
 /// s b - 1 .. s b + s (clamped, or wrapped on periodic axes), so that it bounds every trilinear interpolant
 /// inside. NaN samples are left out; a brick of NaN only has low = +inf, high = -inf.
 struct MinMaxGrid {
-    /// 4, or 8 where that would be more than 2^24 bricks (128 MiB). Bricks of 4 lead rays twice as close to
-    /// a surface: isosurfaces of 256^3 take 12 samples per ray instead of 16.
+    /// 4; 8 where that would be more than 2^24 bricks (128 MiB); 2 in volumes of at most 2^20 samples, which
+    /// have few voxels between their details. Smaller bricks lead rays closer to what is there: with bricks
+    /// of 4 isosurfaces of 256^3 take 12 samples per ray instead of 16.
     [[nodiscard]] static int brickSamplesFor(const glm::ivec3& dims);
 
     struct Range {

@@ -17,8 +17,8 @@ gpu::ShaderDefines definesOf(const SharedStages& stages, const DrawRequest& requ
     const auto colours =
         ColourVolumeStage::defines(tile.isosurface.colouredBy, volumes.colours, stages.filterFloatsInShader);
     defines.insert(defines.end(), colours.begin(), colours.end());
-    defines.emplace_back("CHUNK_SAMPLES",
-                         std::to_string(chunkSamples(tile.sampleDistanceVoxels, kShortReach)));
+    const int reach = shortReach(volumes.volume.dims);
+    defines.emplace_back("CHUNK_SAMPLES", std::to_string(chunkSamples(tile.sampleDistanceVoxels, reach)));
     defines.emplace_back("EXACT_ROOTS", stages.interpolateRootsInShader ? "1" : "0");
     defines.emplace_back("CAPS", tile.isosurface.caps ? "1" : "0");
     defines.emplace_back("SURFACES", std::to_string(tile.isosurface.surfaces.size()));

@@ -14,7 +14,8 @@ std::optional<StrideSettings> strideSettings(const TileSpec& tile, const Residen
     const double coarser = std::cbrt(static_cast<double>(sampleCount(grid.dims)) /
                                      static_cast<double>(sampleCount(volume.dims)));
     return StrideSettings{tile.sampleDistanceVoxels,
-                          meanVoxelEdgeWorld(grid) * coarser / tile.unitLengthWorld, tile.shading.enabled};
+                          meanVoxelEdgeWorld(grid) * coarser / tile.unitLengthWorld, tile.shading.enabled,
+                          MinMaxGrid::brickSamplesFor(volume.dims)};
 }
 
 void drawRaycast(SharedStages& stages, const DrawRequest& request) {
@@ -25,7 +26,8 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     defines.insert(defines.end(), layerDefines.begin(), layerDefines.end());
     const auto strides = stages.skipEmptySpace ? strideSettings(tile, volume) : std::nullopt;
     // Near a clip object's surface even samples are dear, and short chunks keep close to it.
-    const int longest = chunkSamples(tile.sampleDistanceVoxels, kShortReach);
+    const int reach = shortReach(volume.dims);
+    const int longest = chunkSamples(tile.sampleDistanceVoxels, reach);
     const int samples = volumes.clipObject != nullptr && !strides ? std::min(4, longest) : longest;
     defines.emplace_back("CHUNK_SAMPLES", std::to_string(samples));
     defines.emplace_back("PAIRS_SHARE_LIGHT", pairsShareLight(tile) ? "1" : "0");
@@ -39,7 +41,7 @@ void drawRaycast(SharedStages& stages, const DrawRequest& request) {
     if (stages.skipEmptySpace) {
         LayerStage::bindOccupied(program, tile, volume, volumes.layers, samples * tile.sampleDistanceVoxels,
                                  stages.emptySpace);
-        stages.emptySpace.bindOccupied(program, tile.transfer, volume, kShortReach, strides);
+        stages.emptySpace.bindOccupied(program, tile.transfer, volume, reach, strides);
     }
     program.set("voxelsPerTexture", glm::vec3(volume.dims));
     program.set("sampleDistanceVoxels", static_cast<float>(tile.sampleDistanceVoxels));

@@ -140,10 +140,14 @@ TEST(Occupancy, AShortLastCellDoesNotCountWhereItLiesBetween) {
 }
 
 TEST(Occupancy, LargeVolumesUseLargerCells) {
+    EXPECT_EQ(CellLayout::of(glm::ivec3(64)).cellSamples, 2);
+    EXPECT_EQ(shortReach(glm::ivec3(64)), 1);
     EXPECT_EQ(CellLayout::of(glm::ivec3(256)).cellSamples, 4);
+    EXPECT_EQ(shortReach(glm::ivec3(256)), 2);
     EXPECT_EQ(CellLayout::of(glm::ivec3(1024)).cellSamples, 4);
     EXPECT_EQ(CellLayout::of(glm::ivec3(2048)).cellSamples, 8);
-    EXPECT_EQ(CellLayout::of({9, 8, 7}).cells, glm::ivec3(3, 2, 2));
+    EXPECT_EQ(shortReach(glm::ivec3(2048)), 2);
+    EXPECT_EQ(CellLayout::of({9, 8, 7}).cells, glm::ivec3(5, 4, 4));
 }
 
 TEST(Occupancy, AChunkOfSamplesFitsIntoTwiceTheReach) {
@@ -153,7 +157,7 @@ TEST(Occupancy, AChunkOfSamplesFitsIntoTwiceTheReach) {
         EXPECT_LE(samples, 16);
     }
     EXPECT_EQ(chunkSamples(0.5, kLongReach), 16);
-    EXPECT_EQ(chunkSamples(0.5, kShortReach), 8);
+    EXPECT_EQ(chunkSamples(0.5, 2), 8);
     EXPECT_EQ(chunkSamples(1.0, kLongReach), 8);
     EXPECT_EQ(chunkSamples(20.0, kLongReach), 1);
 }

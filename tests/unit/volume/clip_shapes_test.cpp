@@ -168,7 +168,7 @@ TEST(ClipShapeProvider, AnswersItsShapesAndHandsTheRestOn) {
     std::vector<float> slices(81UL * 81 * 2);
     provider.readSlices({key, 0, 0, 0}, 40, 2, std::as_writable_bytes(std::span(slices)));
     EXPECT_EQ(std::memcmp(slices.data(), &expected[40UL * 81 * 81], slices.size() * sizeof(float)), 0);
-    EXPECT_EQ(provider.readMinMax({key, 0, 0, 0}).bricks, glm::ivec3(21));
+    EXPECT_EQ(provider.readMinMax({key, 0, 0, 0}).bricks, glm::ivec3(41));
     EXPECT_THROW((void)provider.readMinMax({key, 1, 0, 0}), NotFound);
 }
 

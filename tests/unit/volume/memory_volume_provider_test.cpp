@@ -46,8 +46,8 @@ TEST(MemoryVolumeProvider, GivesSlicesLevelsAndStatistics) {
 
     std::vector<std::byte> coarse(10 * 5 * 3 * 2);
     EXPECT_NO_THROW(volumes.readSlices({"a", 0, 0, 1}, 0, 3, coarse));
-    EXPECT_EQ(volumes.readMinMax({"a", 0, 0, 0}).bricks, glm::ivec3(5, 3, 2));
-    EXPECT_EQ(volumes.readMinMax({"a", 0, 0, 1}).bricks, glm::ivec3(3, 2, 1));
+    EXPECT_EQ(volumes.readMinMax({"a", 0, 0, 0}).bricks, glm::ivec3(10, 5, 3));
+    EXPECT_EQ(volumes.readMinMax({"a", 0, 0, 1}).bricks, glm::ivec3(5, 3, 2));
 }
 
 TEST(MemoryVolumeProvider, NamesWhatIsNotThere) {

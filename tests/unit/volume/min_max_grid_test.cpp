@@ -10,7 +10,7 @@
 namespace voxsheet {
 namespace {
 
-/// By the definition: the range over samples 4b-1 .. 4b+4, clamped or wrapped.
+/// By the definition: the range over samples s b - 1 .. s b + s, clamped or wrapped.
 MinMaxGrid::Range referenceRange(const std::vector<float>& samples, glm::ivec3 n, glm::bvec3 periodic,
                                  glm::ivec3 b) {
     MinMaxGrid::Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
@@ -18,9 +18,10 @@ MinMaxGrid::Range referenceRange(const std::vector<float>& samples, glm::ivec3 n
         if (periodic[axis]) return (i % n[axis] + n[axis]) % n[axis];
         return std::clamp(i, 0, n[axis] - 1);
     };
-    for (int z = 4 * b.z - 1; z <= 4 * b.z + 4; ++z)
-        for (int y = 4 * b.y - 1; y <= 4 * b.y + 4; ++y)
-            for (int x = 4 * b.x - 1; x <= 4 * b.x + 4; ++x) {
+    const int s = MinMaxGrid::brickSamplesFor(n);
+    for (int z = s * b.z - 1; z <= s * b.z + s; ++z)
+        for (int y = s * b.y - 1; y <= s * b.y + s; ++y)
+            for (int x = s * b.x - 1; x <= s * b.x + s; ++x) {
                 const float v =
                     samples[static_cast<std::size_t>((at(z, 2) * n.y + at(y, 1)) * n.x + at(x, 0))];
                 if (std::isnan(v)) continue;
@@ -33,7 +34,8 @@ MinMaxGrid::Range referenceRange(const std::vector<float>& samples, glm::ivec3 n
 TEST(MinMaxGrid, AgreesWithItsDefinition) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> value(-1.0F, 1.0F);
-    for (const glm::ivec3 n : {glm::ivec3(16, 8, 24), glm::ivec3(17, 9, 1), glm::ivec3(3, 30, 12)})
+    for (const glm::ivec3 n : {glm::ivec3(16, 8, 24), glm::ivec3(17, 9, 1), glm::ivec3(3, 30, 12),
+                               glm::ivec3(130, 123, 66)}) // the last with bricks of 4
         for (const glm::bvec3 periodic :
              {glm::bvec3(false), glm::bvec3(true), glm::bvec3(true, false, true)}) {
             std::vector<float> samples(static_cast<std::size_t>(sampleCount(n)));
@@ -55,6 +57,8 @@ TEST(MinMaxGrid, AgreesWithItsDefinition) {
 }
 
 TEST(MinMaxGrid, BricksGrowBeforeThereAreTooMany) {
+    EXPECT_EQ(MinMaxGrid::brickSamplesFor({128, 128, 64}), 2);
+    EXPECT_EQ(MinMaxGrid::brickSamplesFor({128, 128, 65}), 4);
     EXPECT_EQ(MinMaxGrid::brickSamplesFor({1024, 1024, 1024}), 4);
     EXPECT_EQ(MinMaxGrid::bricksFor({1024, 1024, 1024}), glm::ivec3(256));
     EXPECT_EQ(MinMaxGrid::brickSamplesFor({1025, 1024, 1024}), 8);
