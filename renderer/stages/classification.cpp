@@ -10,7 +10,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedTables = 512; ///< of 64 KiB each: one for each of many cells
+constexpr std::size_t kCachedTables = 256; ///< of 64 KiB each: one for each of many cells
 constexpr double kMaxExtinction = 4096.0;
 
 glm::vec4 shaderEntry(const glm::vec4& entry) {
@@ -82,7 +82,7 @@ const gpu::Texture& tableTexture(Cache& cache, gpu::Context& context,
     const glm::ivec3 size(static_cast<int>(texels.size()), 1, 1);
     gpu::Texture fresh(context, GL_TEXTURE_1D, GL_RGBA32F, size);
     fresh.upload(glm::ivec3(0), size, GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
-    return cache.insert(table, std::move(fresh));
+    return cache.insert(TableKey(table), std::move(fresh));
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "gpu/texture.h"
 #include "residency/residency_manager.h"
 #include "stages/recent_cache.h"
+#include "stages/table_key.h"
 #include "volume/transfer_function.h"
 
 #include <memory>
@@ -53,7 +54,7 @@ public:
 
 private:
     gpu::Context& context_;
-    using Textures = RecentCache<std::shared_ptr<const TransferTable>, gpu::Texture>;
+    using Textures = RecentCache<TableKey, gpu::Texture>;
 
     Textures textures_;
     Textures integrals_;
@@ -61,11 +62,10 @@ private:
 
 /// What was made of a table, or of one that is equal; nullptr: nothing yet.
 template <typename Value>
-Value* madeOf(RecentCache<std::shared_ptr<const TransferTable>, Value>& cache,
-              const std::shared_ptr<const TransferTable>& table) {
-    using Key = std::shared_ptr<const TransferTable>;
-    if (auto* made = cache.find([&](const Key& key) { return key == table; })) return made;
-    return cache.find([&](const Key& key) { return *key == *table; });
+Value* madeOf(RecentCache<TableKey, Value>& cache, const std::shared_ptr<const TransferTable>& table) {
+    if (auto* made = cache.find([&](const TableKey& key) { return key.isSame(table); })) return made;
+    const auto hash = contentHash(*table);
+    return cache.find([&](const TableKey& key) { return key.hash() == hash; });
 }
 
 } // namespace voxsheet

@@ -38,16 +38,18 @@ std::vector<std::uint8_t> occupiedDistances(const TransferTable& table, const Re
 /// Of volumes with absent samples every stride is 1, for ranges do not tell where they are.
 std::vector<std::uint8_t> occupiedMarks(const TransferTable& table, const ResidentVolume& volume,
                                         int reachSamples, const std::optional<StrideSettings>& strides) {
-    auto marks = occupiedDistances(table, volume, reachSamples);
-    if (!strides || hasAbsentSamples(volume)) return marks;
-    constexpr std::uint8_t most = 15;
-    auto fineness = strideExponents(*volume.minMax, table, *strides);
-    for (auto& exponent : fineness)
-        exponent = static_cast<std::uint8_t>(most - exponent);
+    if (!strides || hasAbsentSamples(volume)) return occupiedDistances(table, volume, reachSamples);
+    // Of a brick that shows something how fine its samples are, from 1 on.
+    constexpr int finest = 16;
+    auto fineness = occupiedBricks(*volume.minMax, table);
+    const auto exponents = strideExponents(*volume.minMax, table, *strides);
+    for (std::size_t i = 0; i < fineness.size(); ++i)
+        if (fineness[i] != 0) fineness[i] = static_cast<std::uint8_t>(finest - exponents[i]);
     fineness = largestOverBricks(std::move(fineness), *volume.minMax, volume.dims, volume.meta->grid.periodic,
                                  reachSamples);
+    auto marks = distancesOf(fineness, volume);
     for (std::size_t i = 0; i < marks.size(); ++i)
-        if (marks[i] == 0) marks[i] = static_cast<std::uint8_t>((most - fineness[i]) << kStrideShift);
+        if (marks[i] == 0) marks[i] = static_cast<std::uint8_t>((finest - fineness[i]) << kStrideShift);
     return marks;
 }
 
@@ -91,19 +93,27 @@ bool EmptySpaceStage::Key::matches(const Key& other) const {
     if (rangesHash != other.rangesHash || dims != other.dims || periodic != other.periodic) return false;
     if (valueFromTexel != other.valueFromTexel) return false;
     if (reachSamples != other.reachSamples || values != other.values) return false;
-    if (strides != other.strides) return false;
-    return table == other.table || (table && other.table && *table == *other.table);
+    return strides == other.strides;
 }
 
-EmptySpaceStage::Key EmptySpaceStage::keyOf(const ResidentVolume& volume,
-                                            std::shared_ptr<const TransferTable> table,
-                                            std::vector<double> values, int reachSamples,
-                                            const std::optional<StrideSettings>& strides) {
+template <typename Cache>
+auto* EmptySpaceStage::madeFor(Cache& cache, Key& key, const std::shared_ptr<const TransferTable>& table) {
+    auto* same = cache.find([&](const Key& other) {
+        return key.matches(other) && (table ? other.table.isSame(table) : other.table.hash() == 0);
+    });
+    if (same != nullptr || !table) return same;
+    key.table = TableKey(table);
+    return cache.find(
+        [&](const Key& other) { return key.matches(other) && other.table.hash() == key.table.hash(); });
+}
+
+EmptySpaceStage::Key EmptySpaceStage::keyOf(const ResidentVolume& volume, std::vector<double> values,
+                                            int reachSamples, const std::optional<StrideSettings>& strides) {
     return {volume.rangesHash,
             volume.dims,
             volume.meta->grid.periodic,
             {volume.valueScale, volume.valueOffset},
-            std::move(table),
+            {},
             std::move(values),
             reachSamples,
             strides};
@@ -112,8 +122,8 @@ EmptySpaceStage::Key EmptySpaceStage::keyOf(const ResidentVolume& volume,
 const gpu::Texture& EmptySpaceStage::occupied(const std::shared_ptr<const TransferTable>& table,
                                               const ResidentVolume& volume, int reachSamples,
                                               const std::optional<StrideSettings>& strides) {
-    auto key = keyOf(volume, table, {}, reachSamples, strides);
-    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, {}, reachSamples, strides);
+    const auto* cells = madeFor(textures_, key, table);
     if (cells != nullptr) return *cells;
     return insertDistances(std::move(key), volume, occupiedMarks(*table, volume, reachSamples, strides));
 }
@@ -127,8 +137,8 @@ void EmptySpaceStage::bindOccupied(const gpu::Program& program,
 
 void EmptySpaceStage::bindCrossed(const gpu::Program& program, const std::vector<double>& values,
                                   const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, values, shortReach(volume.dims));
-    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, values, shortReach(volume.dims));
+    const auto* cells = madeFor(textures_, key, nullptr);
     if (cells == nullptr) cells = &insertDistances(std::move(key), volume, crossedDistances(values, volume));
     bind(program, volume, *cells);
 }
@@ -142,8 +152,8 @@ const gpu::Texture& EmptySpaceStage::insertDistances(Key key, const ResidentVolu
 }
 
 void EmptySpaceStage::bindLargest(const gpu::Program& program, const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, {}, kLongReach);
-    const auto* cells = textures_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, {}, kLongReach);
+    const auto* cells = madeFor(textures_, key, nullptr);
     if (cells == nullptr) {
         const auto largest = largestTexels(volume);
         cells = &textures_.insert(std::move(key),
@@ -157,23 +167,23 @@ const EmptySpaceStage::HostCells&
 EmptySpaceStage::occupiedOnHost(const std::shared_ptr<const TransferTable>& table,
                                 const ResidentVolume& volume, int reachSamples,
                                 const std::optional<StrideSettings>& strides) {
-    auto key = keyOf(volume, table, {}, reachSamples, strides);
-    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, {}, reachSamples, strides);
+    const auto* cells = madeFor(hostCells_, key, table);
     if (cells != nullptr) return *cells;
     return insertOnHost(std::move(key), {readable(occupiedMarks(*table, volume, reachSamples, strides)), {}});
 }
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::crossedOnHost(const std::vector<double>& values,
                                                                  const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, values, shortReach(volume.dims));
-    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, values, shortReach(volume.dims));
+    const auto* cells = madeFor(hostCells_, key, nullptr);
     if (cells != nullptr) return *cells;
     return insertOnHost(std::move(key), {readable(crossedDistances(values, volume)), {}});
 }
 
 const EmptySpaceStage::HostCells& EmptySpaceStage::largestOnHost(const ResidentVolume& volume) {
-    auto key = keyOf(volume, nullptr, {}, kLongReach);
-    const auto* cells = hostCells_.find([&](const Key& other) { return key.matches(other); });
+    auto key = keyOf(volume, {}, kLongReach);
+    const auto* cells = madeFor(hostCells_, key, nullptr);
     if (cells != nullptr) return *cells;
     return insertOnHost(std::move(key), {{}, largestTexels(volume)});
 }

@@ -8,6 +8,7 @@
 #include "stages/occupancy.h"
 #include "stages/recent_cache.h"
 #include "stages/sample_strides.h"
+#include "stages/table_key.h"
 #include "volume/transfer_function.h"
 
 #include <cstdint>
@@ -64,17 +65,21 @@ private:
         glm::ivec3 dims{0};
         glm::bvec3 periodic{false};
         glm::dvec2 valueFromTexel{1.0, 0.0};
-        std::shared_ptr<const TransferTable>
-            table; ///< null: largest texels, or cells where `values` are crossed
+        TableKey table; ///< of none: largest texels, or cells where `values` are crossed
         std::vector<double> values;
         int reachSamples = 0;
         std::optional<StrideSettings> strides;
 
+        /// But for the table.
         [[nodiscard]] bool matches(const Key& other) const;
     };
-    static Key keyOf(const ResidentVolume& volume, std::shared_ptr<const TransferTable> table,
-                     std::vector<double> values, int reachSamples,
+    /// Without a table.
+    static Key keyOf(const ResidentVolume& volume, std::vector<double> values, int reachSamples,
                      const std::optional<StrideSettings>& strides = {});
+    /// What was made for the key and the table (null: for none), or for an equal one, which then is the
+    /// key's; nullptr: nothing yet.
+    template <typename Cache>
+    static auto* madeFor(Cache& cache, Key& key, const std::shared_ptr<const TransferTable>& table);
 
     const gpu::Texture& insertDistances(Key key, const ResidentVolume& volume,
                                         const std::vector<std::uint8_t>& distances);

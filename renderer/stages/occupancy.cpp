@@ -1,8 +1,12 @@
 #include "stages/occupancy.h"
 
+#include "stages/range_memo.h"
+#include "volume/parallel_for.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 
 namespace voxsheet {
@@ -27,8 +31,35 @@ std::vector<std::vector<int>> bricksOfCells(int cells, int cellSamples, int samp
     return result;
 }
 
+constexpr long kNumbersPerTask = 1L << 16;
+
 std::size_t offset(const glm::ivec3& size, int x, int y, int z) {
     return static_cast<std::size_t>((static_cast<long>(z) * size.y + y) * size.x + x);
+}
+
+/// Rows of one axis, in a volume of `size` numbers per axis; whole slices at a time.
+void overSlices(const glm::ivec3& size, const std::function<void(int z)>& body) {
+    const long slice = std::max(1L, static_cast<long>(size.x) * size.y);
+    parallelFor(size.z, std::max(1L, kNumbersPerTask / slice), [&](long begin, long end) {
+        for (long z = begin; z < end; ++z)
+            body(static_cast<int>(z));
+    });
+}
+
+template <typename T>
+void largestAlongRow(const T* row, const std::vector<std::vector<int>>& touched, T* spread) {
+    for (std::size_t x = 0; x < touched.size(); ++x) {
+        T largest = row[touched[x].front()];
+        for (const int brick : touched[x])
+            largest = std::max(largest, row[brick]);
+        spread[x] = largest;
+    }
+}
+
+template <typename T>
+void raiseRow(const T* row, int count, T* spread) {
+    for (int x = 0; x < count; ++x)
+        spread[x] = std::max(spread[x], row[x]);
 }
 
 /// Spreads one number per brick to cells: the largest over the bricks that the cell touches, axis by axis.
@@ -43,21 +74,23 @@ std::vector<T> spreadOverCells(std::vector<T> values, glm::ivec3 size, const glm
         wider[axis] = layout.cells[axis];
         std::vector<T> spread(static_cast<std::size_t>(wider.x) * static_cast<std::size_t>(wider.y) *
                               static_cast<std::size_t>(wider.z));
-        glm::ivec3 step(0);
-        step[axis] = 1;
-        for (int z = 0; z < wider.z; ++z)
-            for (int y = 0; y < wider.y; ++y)
-                for (int x = 0; x < wider.x; ++x) {
-                    glm::ivec3 brick(x, y, z);
-                    const auto& list = touched[static_cast<std::size_t>(brick[axis])];
-                    brick[axis] = list.front();
-                    T largest = values[offset(size, brick.x, brick.y, brick.z)];
-                    for (std::size_t i = 1; i < list.size(); ++i) {
-                        brick[axis] = list[i];
-                        largest = std::max(largest, values[offset(size, brick.x, brick.y, brick.z)]);
-                    }
-                    spread[offset(wider, x, y, z)] = largest;
+        overSlices(wider, [&](int z) {
+            for (int y = 0; y < wider.y; ++y) {
+                T* out = spread.data() + offset(wider, 0, y, z);
+                if (axis == 0) {
+                    largestAlongRow(values.data() + offset(size, 0, y, z), touched, out);
+                    continue;
                 }
+                const auto& bricks = touched[static_cast<std::size_t>(axis == 1 ? y : z)];
+                const auto rowOf = [&](int brick) {
+                    return values.data() +
+                           (axis == 1 ? offset(size, 0, brick, z) : offset(size, 0, y, brick));
+                };
+                std::copy_n(rowOf(bricks.front()), size.x, out);
+                for (std::size_t i = 1; i < bricks.size(); ++i)
+                    raiseRow(rowOf(bricks[i]), size.x, out);
+            }
+        });
         values = std::move(spread);
         size = wider;
     }
@@ -147,16 +180,22 @@ CellLayout CellLayout::of(const glm::ivec3& dims) {
 
 int shortReach(const glm::ivec3& dims) { return std::min(2, CellLayout::of(dims).cellSamples / 2); }
 
+std::vector<std::uint8_t> occupiedBricks(const MinMaxGrid& grid, const TransferTable& table) {
+    const OpacityCounts counts(table);
+    RangeMemo<std::uint8_t> memo;
+    const auto mark = [&](const MinMaxGrid::Range& range) {
+        return counts.any(range) ? std::uint8_t{1} : std::uint8_t{0};
+    };
+    std::vector<std::uint8_t> bricks(grid.ranges.size());
+    std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
+                   [&](const MinMaxGrid::Range& range) { return memo(range, mark); });
+    return bricks;
+}
+
 std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                         const glm::bvec3& periodic, const TransferTable& table,
                                         int reachSamples) {
-    const OpacityCounts counts(table);
-    std::vector<std::uint8_t> bricks(grid.ranges.size());
-    std::transform(grid.ranges.begin(), grid.ranges.end(), bricks.begin(),
-                   [&](const MinMaxGrid::Range& range) {
-                       return counts.any(range) ? std::uint8_t{1} : std::uint8_t{0};
-                   });
-    return largestOverBricks(std::move(bricks), grid, dims, periodic, reachSamples);
+    return largestOverBricks(occupiedBricks(grid, table), grid, dims, periodic, reachSamples);
 }
 
 std::vector<std::uint8_t> largestOverBricks(std::vector<std::uint8_t> marks, const MinMaxGrid& grid,

@@ -26,6 +26,9 @@ struct CellLayout {
 [[nodiscard]] int shortReach(const glm::ivec3& dims);
 inline constexpr int kLongReach = 4; ///< where each stretch is looked up
 
+/// Per brick of the grid: 1 where something can have opacity > 0, else 0. Conservative.
+[[nodiscard]] std::vector<std::uint8_t> occupiedBricks(const MinMaxGrid& grid, const TransferTable& table);
+
 /// 1 where something within reach can have opacity > 0, else 0; x fastest. Conservative.
 [[nodiscard]] std::vector<std::uint8_t> occupiedCells(const MinMaxGrid& grid, const glm::ivec3& dims,
                                                       const glm::bvec3& periodic, const TransferTable& table,

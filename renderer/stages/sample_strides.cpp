@@ -1,17 +1,21 @@
 #include "stages/sample_strides.h"
 
 #include "stages/classification.h"
+#include "stages/range_memo.h"
 #include "volume/parallel_for.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <deque>
+#include <mutex>
 #include <numbers>
+#include <optional>
 
 namespace voxsheet {
 namespace {
 
-constexpr long kBricksPerTask = 4096;
+constexpr long kBricksPerTask = 16384;
 constexpr double kLargestExtinction = 16.0; ///< beyond, a voxel is opaque anyhow
 
 /// Answers "the largest over [first, last]?" in constant time: element i of row k is that of 2^k from i on.
@@ -57,7 +61,7 @@ public:
         }
         largest_ = RangeMaximum(std::move(extinctions));
         for (std::size_t width = 2; width < 2 * emission_.size(); width *= 2)
-            bends_.emplace_back(bendsOver(width));
+            bends_.emplace_back();
     }
 
     struct Entries {
@@ -81,7 +85,10 @@ public:
         const auto k =
             static_cast<std::size_t>(std::bit_width(static_cast<std::size_t>(std::ceil(width)) - 1));
         if (k == 0) return 0.0;
-        return double(bends_[std::min(k, bends_.size()) - 1].over(at.first, at.last));
+        const std::size_t element = std::min(k, bends_.size()) - 1;
+        auto& bends = bends_[element];
+        std::call_once(bends.made, [&] { bends.largest.emplace(bendsOver(std::size_t{2} << element)); });
+        return double(bends.largest->over(at.first, at.last));
     }
 
 private:
@@ -113,7 +120,12 @@ private:
     std::vector<double> variation_;
     std::vector<glm::dvec4> sums_;
     RangeMaximum largest_;
-    std::vector<RangeMaximum> bends_; ///< element k: over 2^(k + 1) entries
+    /// Few widths are ever asked for.
+    struct Bends {
+        std::once_flag made;
+        std::optional<RangeMaximum> largest;
+    };
+    mutable std::deque<Bends> bends_; ///< element k: over 2^(k + 1) entries
 };
 
 std::uint8_t exponentOf(const MinMaxGrid::Range& range, const TableChanges& changes,
@@ -149,9 +161,13 @@ std::vector<std::uint8_t> strideExponents(const MinMaxGrid& grid, const Transfer
     std::vector<std::uint8_t> exponents(grid.ranges.size());
     if (longest == 0) return exponents;
     const TableChanges changes(table);
+    const auto exponent = [&](const MinMaxGrid::Range& range) {
+        return exponentOf(range, changes, settings, longest);
+    };
     parallelFor(static_cast<long>(exponents.size()), kBricksPerTask, [&](long begin, long end) {
+        RangeMemo<std::uint8_t> memo;
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-            exponents[i] = exponentOf(grid.ranges[i], changes, settings, longest);
+            exponents[i] = memo(grid.ranges[i], exponent);
     });
     return exponents;
 }

@@ -14,7 +14,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedTables = 512; ///< of 64 KiB each: one for each of many cells
+constexpr std::size_t kCachedTables = 256; ///< of 64 KiB each: one for each of many cells
 constexpr int kRowsPerTask = 2;
 
 template <std::size_t n, typename Vector>
@@ -153,7 +153,7 @@ template <typename Cache, typename Make>
 const std::vector<glm::vec4>& cached(Cache& cache, const std::shared_ptr<const TransferTable>& table,
                                      Make make) {
     const auto* entries = madeOf(cache, table);
-    return entries != nullptr ? *entries : cache.insert(table, make(*table));
+    return entries != nullptr ? *entries : cache.insert(TableKey(table), make(*table));
 }
 
 } // namespace

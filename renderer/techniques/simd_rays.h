@@ -30,7 +30,7 @@ private:
     void setLayers(simd::PictureJob& job, SharedStages& stages, const DrawRequest& request);
     void setSurfaces(simd::SurfaceNumbers& surfaces, const DrawRequest& request);
 
-    using Tables = RecentCache<std::shared_ptr<const TransferTable>, std::vector<glm::vec4>>;
+    using Tables = RecentCache<TableKey, std::vector<glm::vec4>>;
 
     Tables tables_;
     Tables integrals_;

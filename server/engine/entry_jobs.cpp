@@ -1,5 +1,7 @@
 #include "engine/entry_jobs.h"
 
+#include "base/heap.h"
+
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -124,7 +126,12 @@ void EntryJobs::run() {
         execute(id, work, cancelled);
         lock.lock();
         --running_;
+        const bool allDone = queue_.empty() && running_ == 0;
         changed_.notify_all();
+        if (!allDone) continue;
+        lock.unlock();
+        giveFreePagesBack();
+        lock.lock();
     }
 }
 

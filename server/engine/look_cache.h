@@ -30,7 +30,7 @@ public:
     [[nodiscard]] std::shared_ptr<const TransferTable> table(const TransferFunction& function);
 
 private:
-    static constexpr std::size_t kTables = 512; ///< of 64 KiB each
+    static constexpr std::size_t kTables = 256; ///< of 64 KiB each
 
     using SummaryKey = std::tuple<std::string, int, int>;
     /// All that resolveTransfer looks at.
