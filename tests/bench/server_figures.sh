@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # server_figures.sh VOXSHEET: what the server costs beside its pictures, as one JSON object: start to `ready` with
 # a warm store, processor time while nothing happens, from an edit of each kind to a reduced picture of the sheet
-# (95th percentile of EDITS, two requests by curl included; of a formula: to a reduced picture of its cell, once it is
-# computed), and private memory after that with its bound (texture budget + memory budget + 150 MB): pages that this
-# process alone has written. Pages of programs and libraries, which it shares with others that use them and which the
-# system may drop, are apart. Over nine cells of 128^3 that it writes itself, of more bytes than the budgets hold;
-# needs curl.
+# (95th percentile of EDITS, curl's start and two requests over one connection included; of a formula: to a
+# reduced picture of its cell, once it is computed), and private memory after that with its bound (texture budget
+# + memory budget + 150 MB): pages that this process alone has written. Pages of programs and libraries, which it
+# shares with others that use them and which the system may drop, are apart. Over nine cells of 128^3 that it
+# writes itself, of more bytes than the budgets hold; needs curl.
 set -euo pipefail
 program="$(readlink -f "$1")"
 idle_seconds="${IDLE_SECONDS:-10}"
@@ -56,24 +56,26 @@ sleep 2
 before="$(ticks)"; sleep "$idle_seconds"; after="$(ticks)"
 idle_percent="$(awk -v t="$((after - before))" -v hz="$(getconf CLK_TCK)" -v s="$idle_seconds" \
     'BEGIN { printf "%.2f", 100 * t / hz / s }')"
-# One edit, its body in $1, and the picture that shows it.
+# One edit, its body in $1, and the picture that shows it, over one connection as a page has.
 edit() {
     local began; began="$(now)"
     curl --fail-with-body -sS -X PATCH "${url}api/v1/sheets/Sheet1/style" -H 'Content-Type: application/json' -d "$1" \
-        >"$work/answer" || { cat "$work/answer" >&2; return 1; }
-    curl -fsS -o /dev/null "${url}api/v1/sheets/Sheet1/image.jpg?width=768&height=768&quality=half&sampling.distance=1" ||
-        return 1
+        -o "$work/answer" --next --fail-with-body -sS -o "$work/picture.jpg" \
+        "${url}api/v1/sheets/Sheet1/image.jpg?width=768&height=768&quality=half&sampling.distance=1" ||
+        { cat "$work/answer" "$work/picture.jpg" >&2 || true; return 1; }
     milliseconds "$(now) - began"
 }
 # The ninth cell becomes the formula $1.
 formula() {
-    local began; began="$(now)"
-    curl --fail-with-body -sS -X PATCH "${url}api/v1/sheets/Sheet1/cells/C3" -H 'Content-Type: application/json' \
-        -d "$1" >"$work/answer" || { cat "$work/answer" >&2; return 1; }
-    # Until it is computed, the answer is a 409.
-    until curl --fail-with-body -s -o "$work/answer" "${url}api/v1/sheets/Sheet1/cells/C3/image.jpg?width=256&height=256&quality=half"; do
-        [ "$(($(now) - began))" -lt 30000000000 ] || { echo "no picture of $1: $(cat "$work/answer")" >&2; return 1; }
+    local began status cell="${url}api/v1/sheets/Sheet1/cells/C3"; began="$(now)"
+    local picture=(-o "$work/answer" -w '%{http_code}' "$cell/image.jpg?width=256&height=256&quality=half")
+    status="$(curl --fail-with-body --fail-early -sS -X PATCH "$cell" -H 'Content-Type: application/json' -d "$1" \
+        -o "$work/answer" --next -s "${picture[@]}")" || { cat "$work/answer" >&2; return 1; }
+    while [ "$status" = 409 ]; do # it is not computed yet
+        [ "$(($(now) - began))" -lt 30000000000 ] || break
+        status="$(curl -s "${picture[@]}")"
     done
+    [ "$status" = 200 ] || { echo "no picture of $1: $(cat "$work/answer")" >&2; return 1; }
     milliseconds "$(now) - began"
 }
 # p95 NAME BODY [WHAT: edit]: the body's % stands for a number from 0.10 to 0.90.
