@@ -110,7 +110,7 @@ Action addTimeN(CLI::App& app) {
     app.add_option("--frames", a->options.frames,
                    "Frames per N, of which the median counts (6); several times as many where they are quick")
         ->check(CLI::Range(1, 1000));
-    app.add_option("--step", a->options.step, "Measure N = 1 to STEP, then every STEP-th (1)")
+    app.add_option("--step", a->options.step, "Measure every STEP-th N, more of those below it (1)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--stop-ms", a->options.stopMs, "End the series at the first frame that takes longer");
     app.add_option("--device", a->options.device, "EGL device to draw on");

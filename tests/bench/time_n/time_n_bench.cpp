@@ -5,6 +5,7 @@
 #include "base/host_memory.h"
 #include "bench/time_n/bench_datasets.h"
 #include "bench/time_n/machine_pace.h"
+#include "bench/time_n/n_steps.h"
 #include "bench/time_n/other_load.h"
 #include "bench/time_n/second_look.h"
 #include "bench/time_n/stop_signals.h"
@@ -74,12 +75,7 @@ public:
 
 private:
     /// The N that is measured after n.
-    [[nodiscard]] int next(int n) const {
-        const int step = result_.options.step;
-        const int last = result_.options.maxN;
-        if (n >= last || n < step) return n + 1;
-        return std::min(last, (n / step + 1) * step);
-    }
+    [[nodiscard]] int next(int n) const { return nextN(n, result_.options.step, result_.options.maxN); }
 
     [[nodiscard]] FrameSpec frameSpec(int n, int frame) const {
         FrameSpec spec;

@@ -20,7 +20,7 @@ struct TimeNOptions {
     std::uint64_t memoryBudgetBytes = std::uint64_t{512} << 20;  ///< of the paper's machine, about
     ResolutionRule rule;
     int frames = 6;      ///< per N and round; the median of all counts
-    int step = 1;        ///< N = 1 to step, then every step-th, and maxN
+    int step = 1;        ///< nextN(): every step-th, denser at small N, and maxN
     double stopMs = 0.0; ///< ends at the first N whose frame takes longer; 0: at maxN
     int device = -1;
 };
