@@ -8,14 +8,20 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <thread>
 #include <utility>
 
 namespace voxsheet::store {
 
 namespace {
+
+/// How long an entry in the way may take to go: whoever removes it may be waiting for a processor.
+constexpr std::chrono::seconds kPatience{5};
+constexpr std::chrono::milliseconds kLongestPause{50};
 
 void validateMeta(const DatasetMeta& meta) {
     if (!isStoreKey(meta.key))
@@ -116,7 +122,8 @@ void StoreWriter::sync() const {
 
 void StoreWriter::publish() {
     const auto target = store_.folder() / meta_.key;
-    for (int attempt = 0; attempt < 20; ++attempt) {
+    std::chrono::milliseconds pause{1};
+    for (const auto end = std::chrono::steady_clock::now() + kPatience;;) {
         if (std::rename(temporary_->path.c_str(), target.c_str()) == 0) {
             temporary_->published = true;
             return;
@@ -124,8 +131,11 @@ void StoreWriter::publish() {
         if (errno != EEXIST && errno != ENOTEMPTY)
             throw IoError(target.string(), std::string("renaming failed: ") + std::strerror(errno));
         // Another process was first (then its entry is as good), or a damaged one is in the way (then open
-        // removes it).
+        // removes it), or somebody is about to remove it (then it is gone after a while).
         if (store_.open(meta_.key)) return;
+        if (std::chrono::steady_clock::now() > end) break;
+        std::this_thread::sleep_for(pause);
+        pause = std::min(2 * pause, kLongestPause);
     }
     throw IoError(target.string(), "an entry that cannot be read is in the way", "remove that folder");
 }

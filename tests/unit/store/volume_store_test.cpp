@@ -358,6 +358,21 @@ TEST_F(StoreTest, ADamagedEntryInTheWayIsReplaced) {
     EXPECT_NE(store.open("abc"), nullptr);
 }
 
+/// Whoever removes an entry holds its lock, and may have to wait for a processor meanwhile.
+TEST_F(StoreTest, AWriterWaitsForAnEntryThatIsBeingRemoved) {
+    const VolumeStore store(folder());
+    writeSample(store, "abc");
+    FileHandle held(folder() / "abc" / kLockFile, O_RDWR);
+    ASSERT_TRUE(held.tryLock(true));
+    const std::jthread remover([&, lock = std::move(held)]() mutable {
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+        fs::rename(folder() / "abc", folder() / ".trash-abc");
+        lock = {};
+    });
+    EXPECT_NO_THROW(writeSample(store, "abc"));
+    EXPECT_NE(store.open("abc"), nullptr);
+}
+
 TEST_F(StoreTest, ManyWritersReadersAndAnEvictorAgree) {
     const auto one = [&] {
         const VolumeStore store(folder());
