@@ -18,11 +18,12 @@ HostTexels::HostTexels(TexelFormat format, glm::ivec3 dims, glm::bvec3 periodic)
         throw LimitExceeded(what, "rays are marched through at most 2^31 samples of one level",
                             "draw a coarser level");
     try {
-        texels_.resize(bytesFor(format, dims));
+        texels_ = HugePageBlock(bytesFor(format, dims));
     } catch (const std::bad_alloc&) {
         throw LimitExceeded(what, "this machine has no room for its " + byteText(bytesFor(format, dims)),
                             "draw a coarser level, or lower --texture-budget");
     }
+    std::memset(texels_.data() + texels_.size() - kSlackBytes, 0, kSlackBytes);
 }
 
 std::uint64_t HostTexels::bytesFor(TexelFormat format, glm::ivec3 dims) {

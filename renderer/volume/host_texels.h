@@ -1,6 +1,7 @@
 // A volume's texels in host memory, with a border of one texel, for techniques that run on the processor.
 #pragma once
 
+#include "base/huge_page_block.h"
 #include "volume/texture_encoding.h"
 
 #include <glm/glm.hpp>
@@ -8,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace voxsheet {
 
@@ -50,7 +50,7 @@ private:
     TexelFormat format_;
     glm::ivec3 dims_;
     glm::bvec3 periodic_;
-    std::vector<std::byte> texels_;
+    HugePageBlock texels_;
 };
 
 } // namespace voxsheet
