@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace voxsheet {
@@ -71,7 +72,7 @@ void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
 
 bool HostVolumeCache::isAtHand(const VolumeKey& key) const {
     const Blocks blocks = blocksOf(key);
-    if (!keep_) return true;
+    if (!keep_ || isKept({key, kLevelBlock})) return true;
     if (!isKept({key, kMinMaxBlock})) return false;
     for (int number = 0; blocks.first(number) < blocks.depth; ++number)
         if (!isKept({key, number})) return false;
@@ -81,12 +82,45 @@ bool HostVolumeCache::isAtHand(const VolumeKey& key) const {
 void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount) const {
     (void)sliceBytes(*source_->describe(key.dataset), key, zBegin, zCount); // are there
     const Blocks blocks = blocksOf(key);
-    if (!keep_ || 2 * blocks.levelBytes > options_.budgetBytes) return;
+    if (!keep_ || 2 * blocks.levelBytes > options_.budgetBytes || isKept({key, kLevelBlock})) return;
     for (int number = zBegin / blocks.slices; blocks.first(number) < zBegin + zCount; ++number) {
         const BlockKey blockKey{key, number};
         if (!isKept(blockKey)) keep(blockKey, readBlock(key, blocks.first(number), blocks.count(number)));
     }
     if (zBegin + zCount == blocks.depth && !isKept({key, kMinMaxBlock})) (void)readMinMax(key);
+}
+
+void HostVolumeCache::forgetSamples(const VolumeKey& key) const {
+    const std::lock_guard lock(mutex_);
+    auto kept = blocks_.lower_bound({key, kMinMaxBlock});
+    while (kept != blocks_.end() && kept->first.volume == key)
+        kept = remove(kept);
+}
+
+void HostVolumeCache::keepLevel(const VolumeKey& key, const HostLevel& level) const {
+    const BlockKey blockKey{key, kLevelBlock};
+    auto block = std::make_shared<Block>();
+    block->level = level;
+    block->zCount = level.texels->dims().z;
+    block->bytes = bytesOf(level);
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto older = blocks_.find(blockKey); older != blocks_.end()) remove(older);
+    }
+    if (block->bytes <= options_.budgetBytes)
+        keep(blockKey, block);
+    else if (options_.pageCache == PageCacheUse::DropOverBudget)
+        dropOf({{blockKey, block}});
+}
+
+std::optional<HostLevel> HostVolumeCache::takeLevel(const VolumeKey& key, TexelFormat format) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = blocks_.find({key, kLevelBlock});
+    if (found == blocks_.end() || found->second.block->level.texels->format() != format) return std::nullopt;
+    ++state_.hits;
+    auto level = found->second.block->level;
+    remove(found);
+    return level;
 }
 
 HostVolumeCache::Blocks HostVolumeCache::blocksOf(const VolumeKey& key) const {
@@ -147,6 +181,12 @@ std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::find(const BlockK
     return found->second.block;
 }
 
+HostVolumeCache::Kepts::iterator HostVolumeCache::remove(Kepts::iterator kept) const {
+    state_.bytes -= kept->second.block->bytes;
+    order_.erase(kept->second.order);
+    return blocks_.erase(kept);
+}
+
 void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const {
     std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>> evicted;
     {
@@ -154,11 +194,9 @@ void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Bloc
         if (blocks_.count(key) != 0) return; // another thread was faster
         while (state_.bytes + block->bytes > options_.budgetBytes && !order_.empty()) {
             const auto oldest = blocks_.find(order_.back());
-            state_.bytes -= oldest->second.block->bytes;
             ++state_.evictions;
-            evicted.emplace_back(oldest->first, std::move(oldest->second.block));
-            blocks_.erase(oldest);
-            order_.pop_back();
+            evicted.emplace_back(oldest->first, oldest->second.block);
+            remove(oldest);
         }
         order_.push_front(key);
         blocks_.emplace(key, Kept{block, order_.begin()});
@@ -187,15 +225,8 @@ void HostVolumeCache::countRead(std::uint64_t bytes, double ms) const {
 
 void HostVolumeCache::forget(const std::string& dataset) {
     const std::lock_guard lock(mutex_);
-    for (auto kept = blocks_.begin(); kept != blocks_.end();) {
-        if (kept->first.volume.dataset != dataset) {
-            ++kept;
-            continue;
-        }
-        state_.bytes -= kept->second.block->bytes;
-        order_.erase(kept->second.order);
-        kept = blocks_.erase(kept);
-    }
+    for (auto kept = blocks_.begin(); kept != blocks_.end();)
+        kept = kept->first.volume.dataset == dataset ? remove(kept) : std::next(kept);
 }
 
 HostCacheState HostVolumeCache::state() const {

@@ -28,10 +28,11 @@ struct HostCacheOptions {
     bool keep = true; ///< false: nothing is kept until keepFromNowOn()
 };
 
-/// A provider in front of another one. Samples are kept in blocks of whole slices, about 1 MiB each, and
-/// min-max grids whole; the least recently used go first. A level that is larger than the budget is read
-/// block by block and not kept, so that it does not push out everything else. Thread-safe, if the source is;
-/// two threads that miss the same block both read it. Memory beyond the budget: one block per reading thread.
+/// A provider in front of another one. Samples are kept in blocks of whole slices, about 1 MiB each, min-max
+/// grids and levels that left the textures' budget whole; the least recently used go first. A level that is
+/// larger than the budget is read block by block and not kept, so that it does not push out everything else.
+/// Thread-safe, if the source is; two threads that miss the same block both read it. Memory beyond the
+/// budget: one block per reading thread.
 class HostVolumeCache : public VolumeProvider {
 public:
     /// \param source  not null
@@ -46,6 +47,9 @@ public:
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
     /// Of levels that fit the budget twice, so that those before them stay.
     void readAhead(const VolumeKey& key, int zBegin, int zCount) const override;
+    void forgetSamples(const VolumeKey& key) const override;
+    void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
+    [[nodiscard]] std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const override;
 
     /// While all that is looked at fits on the GPU, a second copy in host memory is of no use.
     void keepFromNowOn() { keep_ = true; }
@@ -55,13 +59,14 @@ public:
 private:
     struct BlockKey {
         VolumeKey volume;
-        int block = 0; ///< number of the run of slices; kMinMaxBlock: the min-max grid
+        int block = 0; ///< number of the run of slices, or one of those below 0
 
         auto operator<=>(const BlockKey&) const = default;
     };
     struct Block {
         std::vector<std::byte> samples;
         MinMaxGrid minMax;
+        HostLevel level;
         int zBegin = 0;
         int zCount = 0;
         std::uint64_t bytes = 0;
@@ -71,6 +76,8 @@ private:
         std::list<BlockKey>::iterator order;
     };
     static constexpr int kMinMaxBlock = -1;
+    static constexpr int kLevelBlock = -2; ///< HostLevel
+    using Kepts = std::map<BlockKey, Kept>;
 
     /// How a level is divided.
     struct Blocks {
@@ -84,6 +91,7 @@ private:
     [[nodiscard]] Blocks blocksOf(const VolumeKey& key) const;
     [[nodiscard]] bool isKept(const BlockKey& key) const; ///< which is no use of it
     [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
+    Kepts::iterator remove(Kepts::iterator kept) const; ///< under the lock
     void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
     [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;
     void countRead(std::uint64_t bytes, double ms) const;
@@ -93,7 +101,7 @@ private:
     HostCacheOptions options_;
     std::atomic<bool> keep_;
     mutable std::mutex mutex_;
-    mutable std::map<BlockKey, Kept> blocks_;
+    mutable Kepts blocks_;
     mutable std::list<BlockKey> order_; ///< most recently used first
     mutable HostCacheState state_;
 };

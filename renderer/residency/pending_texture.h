@@ -26,6 +26,11 @@ public:
     [[nodiscard]] bool exceedsDevice(const gpu::Context& context) const;
 
     [[nodiscard]] bool begun() const { return begun_; } ///< its texture takes bytes() by now
+    /// Before begin(), as VolumeUpload's.
+    void takeKept() {
+        if (upload_) upload_->takeKept();
+    }
+    [[nodiscard]] bool isKept() const { return upload_ && upload_->isKept(); }
     /// Throws LimitExceeded when the device has no room.
     void begin(gpu::Context& context);
     /// Samples: as VolumeUpload::advance. Gradients: at least one step, then as many as begin before the

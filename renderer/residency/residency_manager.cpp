@@ -100,11 +100,12 @@ bool ResidencyManager::advanceToLease(PendingTexture& pending, Deadline deadline
 
 void ResidencyManager::complete(PendingTexture& pending) {
     const TextureKey key = pending.key();
+    const bool wasKept = pending.isKept();
     auto entry = pending.finish();
     dequeue(pending);
     totals_.uploadMs += entry->uploadMs;
     totals_.readMs += entry->readMs;
-    if (!isGradients(key.kind)) {
+    if (!isGradients(key.kind) && !wasKept) {
         ++totals_.uploads;
         totals_.uploadedBytes += entry->bytes;
     }
@@ -302,6 +303,8 @@ bool ResidencyManager::beginInBackground(PendingTexture& pending) {
 }
 
 void ResidencyManager::createTexture(PendingTexture& pending, std::optional<WantedPriority> below) {
+    // What host memory keeps is taken first: what is evicted takes its place there.
+    pending.takeKept();
     // Evict first and allocate then, so that the peak stays within the budget too.
     while (occupiedBytes() + pending.bytes() > budgetBytes_ && evictOne(below, pending)) {
     }
@@ -326,7 +329,10 @@ bool ResidencyManager::evictOne(std::optional<WantedPriority> below, const Pendi
     if (!whole && unfinished == nullptr) return false;
     // Work under way is given up only for want of anything less wanted.
     if (whole && (unfinished == nullptr || table_->priority(whole->volume) <= unfinished->priority)) {
-        table_->remove(*whole);
+        const auto entry = table_->remove(*whole);
+        if (isOnHost(whole->kind))
+            provider_->keepLevel(whole->volume,
+                                 {entry->volume.host, entry->volume.minMax, entry->volume.rangesHash});
     } else {
         dequeue(*unfinished);
     }

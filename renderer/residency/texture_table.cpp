@@ -48,11 +48,13 @@ void TextureTable::add(const TextureKey& key, std::shared_ptr<TextureEntry> entr
     bytes_ += bytes;
 }
 
-void TextureTable::remove(const TextureKey& key) {
+std::shared_ptr<TextureEntry> TextureTable::remove(const TextureKey& key) {
     const auto found = entries_.find(key);
-    if (found == entries_.end()) return;
-    bytes_ -= found->second->bytes;
+    if (found == entries_.end()) return nullptr;
+    auto entry = std::move(found->second);
+    bytes_ -= entry->bytes;
     entries_.erase(found);
+    return entry;
 }
 
 void TextureTable::removeDataset(const std::string& dataset) {

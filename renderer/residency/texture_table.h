@@ -53,7 +53,8 @@ public:
     [[nodiscard]] std::shared_ptr<TextureEntry> use(const TextureKey& key);
     /// As used now. The key must be free.
     void add(const TextureKey& key, std::shared_ptr<TextureEntry> entry);
-    void remove(const TextureKey& key);
+    /// What it was; null if it is not there.
+    std::shared_ptr<TextureEntry> remove(const TextureKey& key);
     void removeDataset(const std::string& dataset);
 
     /// What bringing a texture in ended with, until it is thrown or other volumes are wanted.

@@ -99,7 +99,19 @@ bool VolumeUpload::exceedsDevice(const gpu::Context& context) const {
     return std::max({volume_.dims.x, volume_.dims.y, volume_.dims.z}) > context.limits().textureSize3d;
 }
 
+void VolumeUpload::takeKept() {
+    if (!onHost_) return;
+    auto kept = provider_.takeLevel(key_, encoding_.format);
+    if (!kept) return;
+    kept_ = true;
+    nextSlice_ = volume_.dims.z;
+    volume_.host = std::move(kept->texels);
+    volume_.minMax = std::move(kept->minMax);
+    volume_.rangesHash = kept->rangesHash;
+}
+
 std::optional<gpu::Texture> VolumeUpload::begin(gpu::Context& context) {
+    if (kept_) return std::nullopt;
     if (onHost_) {
         host_ = std::make_shared<HostTexels>(encoding_.format, volume_.dims, volume_.meta->grid.periodic);
         volume_.host = host_;
@@ -143,6 +155,7 @@ void VolumeUpload::askAhead(SliceReader& reader) {
 }
 
 bool VolumeUpload::advance(std::optional<gpu::Texture>& texture, SliceReader& reader, Deadline deadline) {
+    if (kept_) return true;
     const auto arrived = [&](const auto& read) {
         const Stopwatch watch(readMs_);
         if (deadline == Deadline::max()) {
@@ -155,7 +168,10 @@ bool VolumeUpload::advance(std::optional<gpu::Texture>& texture, SliceReader& re
         askAhead(reader);
         if (reads_.empty()) {
             if (!arrived(minMax_)) return false;
-            if (host_) host_->closeBorders();
+            if (host_) {
+                host_->closeBorders();
+                provider_.forgetSamples(key_);
+            }
             volume_.minMax = std::make_shared<const MinMaxGrid>(minMax_.get());
             volume_.rangesHash = contentHash(*volume_.minMax);
             return true;

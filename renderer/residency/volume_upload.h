@@ -33,6 +33,9 @@ public:
     [[nodiscard]] std::uint64_t bytes() const; ///< of the texture, or of the texels in host memory
     [[nodiscard]] bool
     exceedsDevice(const gpu::Context& context) const; ///< more texels on an axis than it takes
+    /// Before begin(): takes the whole level over if the provider keeps it for rays. Then it is done.
+    void takeKept();
+    [[nodiscard]] bool isKept() const { return kept_; }
     /// Throws LimitExceeded when there is no room. Nothing where the texels stay on the host.
     [[nodiscard]] std::optional<gpu::Texture> begin(gpu::Context& context);
     /// Converts and uploads chunks of slices as the reader brings them, and takes the min-max grid at last;
@@ -56,6 +59,7 @@ private:
     ScalarType type_;
     TextureEncoding encoding_;
     bool onHost_;
+    bool kept_ = false; ///< takeKept()
     std::shared_ptr<HostTexels> host_;
     ResidentVolume volume_;
     int nextSlice_ = 0;

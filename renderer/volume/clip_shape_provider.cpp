@@ -47,4 +47,16 @@ void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount) 
     providerOf(key.dataset).readAhead(key, zBegin, zCount);
 }
 
+void ClipShapeProvider::forgetSamples(const VolumeKey& key) const {
+    providerOf(key.dataset).forgetSamples(key);
+}
+
+void ClipShapeProvider::keepLevel(const VolumeKey& key, const HostLevel& level) const {
+    providerOf(key.dataset).keepLevel(key, level);
+}
+
+std::optional<HostLevel> ClipShapeProvider::takeLevel(const VolumeKey& key, TexelFormat format) const {
+    return providerOf(key.dataset).takeLevel(key, format);
+}
+
 } // namespace voxsheet

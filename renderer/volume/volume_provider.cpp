@@ -39,4 +39,12 @@ bool VolumeProvider::isAtHand(const VolumeKey&) const { return true; }
 
 void VolumeProvider::readAhead(const VolumeKey&, int, int) const {}
 
+void VolumeProvider::forgetSamples(const VolumeKey&) const {}
+
+void VolumeProvider::keepLevel(const VolumeKey&, const HostLevel&) const {}
+
+std::optional<HostLevel> VolumeProvider::takeLevel(const VolumeKey&, TexelFormat) const {
+    return std::nullopt;
+}
+
 } // namespace voxsheet

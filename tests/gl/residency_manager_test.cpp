@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "gl_fixture.h"
+#include "residency/host_volume_cache.h"
 
 #include <cmath>
 #include <cstring>
@@ -64,6 +65,49 @@ TEST_F(Residency, EvictsTheLeastRecentlyUsedAndStaysInBudget) {
     EXPECT_EQ(manager.state().evictions, 1U);
     EXPECT_EQ(manager.state().residentBytes, 2 * kBytes);
     EXPECT_EQ(context().counts().textureBytes, 2 * kBytes);
+}
+
+/// Where rays are marched by the processor, what leaves the textures' budget is in host memory already.
+TEST_F(Residency, TexelsOnTheHostMoveBetweenTheBudgetsWithoutACopy) {
+    const TexelForm onHost{FloatTexels::Full, true};
+    const std::uint64_t bytes = HostTexels::bytesFor(TexelFormat::R32F, glm::ivec3(kDim));
+    const auto memory = std::make_shared<const HostVolumeCache>(
+        provider_, HostCacheOptions{.budgetBytes = 3 * bytes, .pageCache = PageCacheUse::Keep});
+    ResidencyManager manager(context(), memory, 2 * bytes);
+    const HostTexels* texelsOfA = manager.acquire({"a", 0, 0, 0}, onHost).volume().host.get();
+    EXPECT_EQ(memory->state().bytes, 0U) << "samples that became texels are not kept as well";
+    (void)manager.acquire({"b", 0, 0, 0}, onHost);
+    (void)manager.acquire({"c", 0, 0, 0}, onHost);
+    EXPECT_FALSE(manager.isResident({"a", 0, 0, 0}, onHost));
+    EXPECT_TRUE(manager.isAtHand({"a", 0, 0, 0}));
+    EXPECT_GE(memory->state().bytes, bytes);
+    const auto before = manager.state();
+    const auto read = memory->state().diskBytes;
+    const auto again = manager.acquire({"a", 0, 0, 0}, onHost);
+    EXPECT_EQ(again.volume().host.get(), texelsOfA);
+    ASSERT_NE(again.volume().minMax, nullptr);
+    EXPECT_EQ(again.volume().rangesHash, contentHash(*again.volume().minMax));
+    EXPECT_EQ(manager.state().uploads, before.uploads);
+    EXPECT_EQ(memory->state().diskBytes, read);
+    EXPECT_EQ(manager.state().evictions, 2U) << "b took its place";
+    EXPECT_TRUE(manager.isAtHand({"b", 0, 0, 0}));
+    EXPECT_EQ(manager.state().residentBytes, 2 * bytes);
+}
+
+/// The one that comes back must not be pushed out by the one that goes in its favour.
+TEST_F(Residency, HostMemoryForOneLevelSwapsTwoForEver) {
+    const TexelForm onHost{FloatTexels::Full, true};
+    const std::uint64_t bytes = HostTexels::bytesFor(TexelFormat::R32F, glm::ivec3(kDim));
+    // One level and its min-max grid, and the samples of one that is being read; not two levels.
+    const auto memory = std::make_shared<const HostVolumeCache>(
+        provider_, HostCacheOptions{.budgetBytes = bytes * 11 / 5, .pageCache = PageCacheUse::Keep});
+    ResidencyManager manager(context(), memory, bytes * 3 / 2);
+    for (int round = 0; round < 5; ++round)
+        for (const char* name : {"a", "b"})
+            EXPECT_NE(manager.acquire({name, 0, 0, 0}, onHost).volume().host, nullptr);
+    EXPECT_EQ(manager.state().uploads, 2U);
+    EXPECT_EQ(manager.state().evictions, 9U);
+    EXPECT_LE(memory->state().bytes, memory->state().budgetBytes);
 }
 
 TEST_F(Residency, DoesNotEvictWhatIsLeased) {

@@ -103,8 +103,9 @@ TEST(ApiBudget, ASheetLargerThanTheTextureBudgetSwapsAndLooksTheSame) {
     EXPECT_GE(metric(*tight, "voxsheet_texture_evictions_total"), 6);
     EXPECT_GT(metric(*tight, "voxsheet_host_cache_hits_total"), 0) << "from host memory, not from disk";
     // Whatever was read before the first eviction is read a second time, nothing a third time; min-max grids
-    // beside the samples.
-    EXPECT_LE(metric(*tight, "voxsheet_store_read_bytes_total"), 2.2 * kVolumes * kVolumeBytes);
+    // (a quarter of the samples) beside them. What is on the host anyway is kept from the first eviction on.
+    EXPECT_LE(metric(*tight, "voxsheet_store_read_bytes_total"),
+              (residentBytes(*tight) > kVolumeBytes ? 1.3 : 2.2) * kVolumes * kVolumeBytes);
     const auto info = tight->get("/api/v1").json();
     EXPECT_EQ(info.at("budgets").at("texture"), 2500 * 1024);
     EXPECT_EQ(info.at("budgets").at("texture_why"), "as asked for");

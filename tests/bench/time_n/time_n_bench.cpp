@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kCheckedTiles = 4;
 constexpr std::size_t kMostRounds = 16;
-constexpr double kLeastTotalMs = 400.0;
+constexpr double kLeastTotalMs = 1200.0;
 constexpr int kFirstFrames = 5; ///< until shaders are compiled and clocks are up
 
 /// What it does not keep comes from the disk: nothing is left to the system's page cache.

@@ -109,6 +109,70 @@ TEST(HostVolumeCache, BeforeAnythingIsKeptAllIsEquallyFarAway) {
     EXPECT_EQ(disk->bytesRead, 0U);
 }
 
+HostLevel levelOf(const VolumeProvider& volumes, int volume) {
+    const auto texels = std::make_shared<HostTexels>(TexelFormat::R16, kDims, glm::bvec3(false));
+    texels->setSlices(0, kDims.z, readLevel(volumes, volume));
+    texels->closeBorders();
+    auto grid = std::make_shared<MinMaxGrid>(volumes.readMinMax({Disk::nameOf(volume), 0, 0, 0}));
+    return {texels, grid, static_cast<std::uint64_t>(volume) + 1};
+}
+
+TEST(HostVolumeCache, AKeptLevelIsAtHandAndGivenBackOnce) {
+    const auto disk = std::make_shared<Disk>(2);
+    const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel});
+    const VolumeKey key{"v1", 0, 0, 0};
+    const HostLevel level = levelOf(*disk, 1);
+    EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16));
+    cache.keepLevel(key, level);
+    EXPECT_EQ(cache.state().bytes, bytesOf(level));
+    EXPECT_TRUE(cache.isAtHand(key));
+    EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0}));
+    const auto before = disk->bytesRead.load();
+    cache.readAhead(key, 0, kDims.z);
+    EXPECT_EQ(disk->bytesRead, before) << "it is there";
+    EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16F)) << "another format is of no use";
+    const auto taken = cache.takeLevel(key, TexelFormat::R16);
+    ASSERT_TRUE(taken);
+    EXPECT_EQ(taken->texels, level.texels) << "no copy";
+    EXPECT_EQ(taken->minMax, level.minMax);
+    EXPECT_EQ(taken->rangesHash, 2U);
+    EXPECT_EQ(cache.state().bytes, 0U);
+    EXPECT_FALSE(cache.isAtHand(key));
+    EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16));
+}
+
+TEST(HostVolumeCache, KeptLevelsAndBlocksShareTheBudget) {
+    const auto disk = std::make_shared<Disk>(3);
+    HostVolumeCache cache(
+        disk, {.budgetBytes = 2 * kLevel + kLevel / 2, .pageCache = PageCacheUse::DropOverBudget});
+    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0));
+    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0)); // takes its place
+    (void)readLevel(cache, 1);
+    EXPECT_TRUE(cache.isAtHand({"v0", 0, 0, 0}));
+    EXPECT_EQ(cache.state().bytes, bytesOf(levelOf(*disk, 0)) + kLevel);
+    EXPECT_EQ(disk->slicesDropped, 0);
+    cache.keepLevel({"v2", 0, 0, 0}, levelOf(*disk, 2));
+    EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0})) << "the least recently used went";
+    EXPECT_EQ(disk->slicesDropped, kDims.z) << "and its pages";
+    EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
+    cache.forgetSamples({"v1", 0, 0, 0});
+    EXPECT_EQ(cache.state().bytes, bytesOf(levelOf(*disk, 2))) << "levels are no samples of others";
+    cache.forgetSamples({"v2", 0, 0, 0});
+    EXPECT_TRUE(cache.isAtHand({"v2", 0, 0, 0})) << "nor are they samples";
+    cache.forget("v2");
+    EXPECT_EQ(cache.state().bytes, 0U);
+    EXPECT_EQ(disk->slicesDropped, kDims.z);
+}
+
+TEST(HostVolumeCache, ALevelLargerThanTheBudgetIsNotKept) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = kLevel, .pageCache = PageCacheUse::DropOverBudget});
+    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0)); // its border makes it larger
+    EXPECT_EQ(cache.state().bytes, 0U);
+    EXPECT_FALSE(cache.takeLevel({"v0", 0, 0, 0}, TexelFormat::R16));
+    EXPECT_EQ(disk->slicesDropped, kDims.z);
+}
+
 TEST(HostVolumeCache, ReadsFromDiskOnce) {
     const auto disk = std::make_shared<Disk>(1);
     const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel});
