@@ -239,8 +239,9 @@ private:
 
     [[nodiscard]] bool isAtHand(const TileSpec& tile, const TileLevels& levels) const {
         const auto missing = renderer_->missing(tile, levels);
-        return std::all_of(missing.begin(), missing.end(),
-                           [&](const VolumeKey& key) { return renderer_->residency().isAtHand(key); });
+        return std::all_of(missing.begin(), missing.end(), [&](const WantedVolume& volume) {
+            return renderer_->residency().isAtHand(volume.key);
+        });
     }
 
     [[nodiscard]] const TileLevels& levelsOf(FrameJob& job, std::size_t tile) const {

@@ -92,7 +92,7 @@ bool TileRenderer::isResident(const TileSpec& tile, const TileLevels& levels) co
     return isTileResident(residency_, tile, techniques_.paths(), levels);
 }
 
-std::vector<VolumeKey> TileRenderer::missing(const TileSpec& tile, const TileLevels& levels) const {
+std::vector<WantedVolume> TileRenderer::missing(const TileSpec& tile, const TileLevels& levels) const {
     return missingVolumes(residency_, tile, techniques_.paths(), levels);
 }
 

@@ -61,7 +61,7 @@ public:
     [[nodiscard]] TileLevels levelsFor(const TileSpec& tile, LevelChoice choice) const;
     [[nodiscard]] bool isResident(const TileSpec& tile, const TileLevels& levels) const;
     /// What has to be read before the tile can be drawn.
-    [[nodiscard]] std::vector<VolumeKey> missing(const TileSpec& tile, const TileLevels& levels) const;
+    [[nodiscard]] std::vector<WantedVolume> missing(const TileSpec& tile, const TileLevels& levels) const;
     /// Works until the deadline on what the tile needs; the tile itself is not drawn. Throws as begin.
     void bringIn(const TileSpec& tile, const TileLevels& levels, Deadline deadline);
     /// Makes the volumes resident, or finds what is at hand of them, and queues drawing, resolving and

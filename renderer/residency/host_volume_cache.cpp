@@ -79,15 +79,88 @@ bool HostVolumeCache::isAtHand(const VolumeKey& key) const {
     return true;
 }
 
-void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount) const {
+void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount,
+                                std::optional<FloatTexels> forRays) const {
     (void)sliceBytes(*source_->describe(key.dataset), key, zBegin, zCount); // are there
     const Blocks blocks = blocksOf(key);
     if (!keep_ || 2 * blocks.levelBytes > options_.budgetBytes || isKept({key, kLevelBlock})) return;
+    if (forRays) return readLevelAhead(key, zBegin, zCount, *forRays);
     for (int number = zBegin / blocks.slices; blocks.first(number) < zBegin + zCount; ++number) {
         const BlockKey blockKey{key, number};
         if (!isKept(blockKey)) keep(blockKey, readBlock(key, blocks.first(number), blocks.count(number)));
     }
     if (zBegin + zCount == blocks.depth && !isKept({key, kMinMaxBlock})) (void)readMinMax(key);
+}
+
+void HostVolumeCache::readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const {
+    const std::lock_guard lock(aheadMutex_);
+    const TexelPlan plan = planTexels(*source_, key, true, floats);
+    if (zBegin == 0) beginLevel(key, plan);
+    const auto block = lookUp({key, kUnfinishedBlock});
+    // Gone: it was taken, or had to make room.
+    if (!block || block->unfinished->slices != zBegin) return;
+    addSlices(key, *block->unfinished, plan, zCount);
+    if (block->unfinished->slices == plan.dims.z) finishLevel(key, *block->unfinished);
+}
+
+void HostVolumeCache::beginLevel(const VolumeKey& key, const TexelPlan& plan) const {
+    takeBlock({key, kUnfinishedBlock});
+    auto texels = std::make_shared<HostTexels>(plan.encoding.format, plan.dims, plan.meta->grid.periodic);
+    auto block = std::make_shared<Block>();
+    block->unfinished = std::make_shared<UnfinishedLevel>(UnfinishedLevel{std::move(texels), 0});
+    block->bytes = HostTexels::bytesFor(plan.encoding.format, plan.dims);
+    keep({key, kUnfinishedBlock}, block);
+}
+
+void HostVolumeCache::addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan,
+                                int zCount) const {
+    pieces_.stored.resize(sliceBytes(*plan.meta, key, level.slices, zCount).count);
+    const auto begun = Clock::now();
+    source_->readSlices(key, level.slices, zCount, pieces_.stored);
+    countRead(pieces_.stored.size(), millisecondsSince(begun));
+    if (options_.pageCache == PageCacheUse::DropAlways) source_->dropPages(key, level.slices, zCount);
+    std::span<const std::byte> texels = pieces_.stored;
+    if (!isVerbatim(plan.type, plan.encoding)) {
+        pieces_.texels.resize(pieces_.stored.size() / scalarBytes(plan.type) *
+                              texelFormatBytes(plan.encoding.format));
+        encodeTexels(plan.type, plan.encoding, pieces_.stored, pieces_.texels);
+        texels = pieces_.texels;
+    }
+    level.texels->setSlices(level.slices, zCount, texels);
+    level.slices += zCount;
+}
+
+void HostVolumeCache::finishLevel(const VolumeKey& key, const UnfinishedLevel& level) const {
+    level.texels->closeBorders();
+    const auto begun = Clock::now();
+    auto minMax = std::make_shared<const MinMaxGrid>(source_->readMinMax(key));
+    countRead(minMax->ranges.size() * sizeof(MinMaxGrid::Range), millisecondsSince(begun));
+    const HostLevel whole{level.texels, minMax, contentHash(*minMax)};
+    if (takeBlock({key, kUnfinishedBlock})) keepLevel(key, whole);
+}
+
+std::optional<UnfinishedLevel> HostVolumeCache::takeUnfinished(const VolumeKey& key,
+                                                               TexelFormat format) const {
+    const std::lock_guard lock(aheadMutex_);
+    const auto block = lookUp({key, kUnfinishedBlock});
+    if (!block || block->unfinished->texels->format() != format) return std::nullopt;
+    takeBlock({key, kUnfinishedBlock});
+    return *block->unfinished;
+}
+
+std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::lookUp(const BlockKey& key) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = blocks_.find(key);
+    return found == blocks_.end() ? nullptr : found->second.block;
+}
+
+std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::takeBlock(const BlockKey& key) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = blocks_.find(key);
+    if (found == blocks_.end()) return nullptr;
+    auto block = found->second.block;
+    remove(found);
+    return block;
 }
 
 void HostVolumeCache::forgetSamples(const VolumeKey& key) const {
@@ -103,10 +176,7 @@ void HostVolumeCache::keepLevel(const VolumeKey& key, const HostLevel& level) co
     block->level = level;
     block->zCount = level.texels->dims().z;
     block->bytes = bytesOf(level);
-    {
-        const std::lock_guard lock(mutex_);
-        if (const auto older = blocks_.find(blockKey); older != blocks_.end()) remove(older);
-    }
+    takeBlock(blockKey);
     if (block->bytes <= options_.budgetBytes)
         keep(blockKey, block);
     else if (options_.pageCache == PageCacheUse::DropOverBudget)
@@ -134,10 +204,7 @@ HostVolumeCache::Blocks HostVolumeCache::blocksOf(const VolumeKey& key) const {
     return blocks;
 }
 
-bool HostVolumeCache::isKept(const BlockKey& key) const {
-    const std::lock_guard lock(mutex_);
-    return blocks_.count(key) != 0;
-}
+bool HostVolumeCache::isKept(const BlockKey& key) const { return lookUp(key) != nullptr; }
 
 std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::readBlock(const VolumeKey& key, int zBegin,
                                                                          int zCount) const {
@@ -208,7 +275,7 @@ void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Bloc
 void HostVolumeCache::dropOf(
     const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const {
     for (const auto& [key, block] : evicted) {
-        if (key.block == kMinMaxBlock) continue;
+        if (key.block == kMinMaxBlock || key.block == kUnfinishedBlock) continue;
         try {
             source_->dropPages(key.volume, block->zBegin, block->zCount);
         } catch (const Error&) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "residency/host_cache_state.h"
+#include "volume/texel_plan.h"
 #include "volume/volume_provider.h"
 
 #include <algorithm>
@@ -32,7 +33,8 @@ struct HostCacheOptions {
 /// grids and levels that left the textures' budget whole; the least recently used go first. A level that is
 /// larger than the budget is read block by block and not kept, so that it does not push out everything else.
 /// Thread-safe, if the source is; two threads that miss the same block both read it. Memory beyond the
-/// budget: one block per reading thread.
+/// budget: one block per reading thread,
+/// and two pieces of what is read ahead.
 class HostVolumeCache : public VolumeProvider {
 public:
     /// \param source  not null
@@ -46,10 +48,13 @@ public:
     /// All of its samples and its min-max grid are kept, or nothing is yet.
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
     /// Of levels that fit the budget twice, so that those before them stay.
-    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override;
+    void readAhead(const VolumeKey& key, int zBegin, int zCount,
+                   std::optional<FloatTexels> forRays) const override;
     void forgetSamples(const VolumeKey& key) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
     [[nodiscard]] std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const override;
+    [[nodiscard]] std::optional<UnfinishedLevel> takeUnfinished(const VolumeKey& key,
+                                                                TexelFormat format) const override;
 
     /// While all that is looked at fits on the GPU, a second copy in host memory is of no use.
     void keepFromNowOn() { keep_ = true; }
@@ -67,6 +72,7 @@ private:
         std::vector<std::byte> samples;
         MinMaxGrid minMax;
         HostLevel level;
+        std::shared_ptr<UnfinishedLevel> unfinished; ///< under aheadMutex_
         int zBegin = 0;
         int zCount = 0;
         std::uint64_t bytes = 0;
@@ -76,7 +82,8 @@ private:
         std::list<BlockKey>::iterator order;
     };
     static constexpr int kMinMaxBlock = -1;
-    static constexpr int kLevelBlock = -2; ///< HostLevel
+    static constexpr int kLevelBlock = -2;      ///< HostLevel
+    static constexpr int kUnfinishedBlock = -3; ///< one that is being read ahead
     using Kepts = std::map<BlockKey, Kept>;
 
     /// How a level is divided.
@@ -89,12 +96,18 @@ private:
         [[nodiscard]] int count(int block) const { return std::min(slices, depth - first(block)); }
     };
     [[nodiscard]] Blocks blocksOf(const VolumeKey& key) const;
-    [[nodiscard]] bool isKept(const BlockKey& key) const; ///< which is no use of it
+    [[nodiscard]] std::shared_ptr<const Block> lookUp(const BlockKey& key) const; ///< which is no use of it
+    [[nodiscard]] bool isKept(const BlockKey& key) const;                         ///< likewise
     [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
     Kepts::iterator remove(Kepts::iterator kept) const; ///< under the lock
     void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
     [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;
     void countRead(std::uint64_t bytes, double ms) const;
+    void readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const;
+    void beginLevel(const VolumeKey& key, const TexelPlan& plan) const;
+    void addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan, int zCount) const;
+    void finishLevel(const VolumeKey& key, const UnfinishedLevel& level) const;
+    std::shared_ptr<const Block> takeBlock(const BlockKey& key) const;
     void dropOf(const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const;
 
     std::shared_ptr<const VolumeProvider> source_;
@@ -104,6 +117,12 @@ private:
     mutable Kepts blocks_;
     mutable std::list<BlockKey> order_; ///< most recently used first
     mutable HostCacheState state_;
+
+    mutable std::mutex aheadMutex_; ///< of levels that are being read ahead; locked before mutex_
+    struct Pieces {
+        std::vector<std::byte> stored, texels;
+    };
+    mutable Pieces pieces_; ///< what is read ahead passes through
 };
 
 } // namespace voxsheet

@@ -344,7 +344,12 @@ bool ResidencyManager::evictOne(std::optional<WantedPriority> below, const Pendi
 
 bool ResidencyManager::isAtHand(const VolumeKey& key) const { return provider_->isAtHand(key); }
 
-void ResidencyManager::readAhead(std::vector<VolumeKey> keys) { reader_->readAhead(std::move(keys)); }
+void ResidencyManager::readAhead(const std::vector<WantedVolume>& volumes) {
+    std::vector<AheadRequest> levels;
+    for (const WantedVolume& volume : volumes)
+        levels.push_back({volume.key, volume.form.onHost ? std::optional(volume.form.floats) : std::nullopt});
+    reader_->readAhead(std::move(levels));
+}
 
 // --- what it would take ---
 

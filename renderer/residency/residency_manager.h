@@ -97,7 +97,7 @@ public:
     /// Whether its samples can be had without waiting for a disk. Throws NotFound.
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const;
     /// Reads samples into host memory, when nothing else is read. Replaces what was asked for before.
-    void readAhead(std::vector<VolumeKey> keys);
+    void readAhead(const std::vector<WantedVolume>& volumes);
 
     // --- what it would take ---
     /// Bytes of the texture. Throws NotFound as acquire.

@@ -58,13 +58,13 @@ std::future<MinMaxGrid> SliceReader::readMinMax(VolumeKey key) {
         [provider = provider_, key = std::move(key)] { return provider->readMinMax(key); });
 }
 
-void SliceReader::readAhead(std::vector<VolumeKey> keys) {
+void SliceReader::readAhead(std::vector<AheadRequest> levels) {
     {
         const std::lock_guard lock(mutex_);
-        if (keys == asked_) return;
-        ahead_.assign(keys.begin(), keys.end());
+        if (levels == asked_) return;
+        ahead_.assign(levels.begin(), levels.end());
         nextAhead_ = 0;
-        asked_ = std::move(keys);
+        asked_ = std::move(levels);
         aheadFrom_ = std::chrono::steady_clock::now() + kAheadAfter;
     }
     wake_.notify_all();
@@ -100,18 +100,19 @@ void SliceReader::run() {
 void SliceReader::readAheadSome(const Ahead& from) {
     std::optional<int> next; // nothing: the level is at its end, or fails
     try {
-        const auto meta = provider_->describe(from.key.dataset);
-        const int depth = levelDims(meta->grid.dims, from.key.level).z;
-        const auto slice = sliceBytes(*meta, from.key, 0, 1).count;
+        const VolumeKey& key = from.level.key;
+        const auto meta = provider_->describe(key.dataset);
+        const int depth = levelDims(meta->grid.dims, key.level).z;
+        const auto slice = sliceBytes(*meta, key, 0, 1).count;
         const auto slices = static_cast<int>(
             std::clamp(kAheadBytes / slice, std::size_t{1}, static_cast<std::size_t>(depth - from.zBegin)));
-        provider_->readAhead(from.key, from.zBegin, slices);
+        provider_->readAhead(key, from.zBegin, slices, from.level.forRays);
         if (from.zBegin + slices < depth) next = from.zBegin + slices;
     } catch (const std::exception&) {
         next.reset();
     }
     const std::lock_guard lock(mutex_);
-    if (ahead_.empty() || ahead_.front() != from.key || nextAhead_ != from.zBegin)
+    if (ahead_.empty() || !(ahead_.front() == from.level) || nextAhead_ != from.zBegin)
         return; // others are asked for
     if (!next) ahead_.pop_front();
     nextAhead_ = next.value_or(0);

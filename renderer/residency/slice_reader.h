@@ -11,6 +11,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct SliceRequest {
     int zBegin = 0;
     int zCount = 0;
     std::vector<std::byte> buffer; ///< what they are read into, given back as the result; of their size
+};
+
+/// A level that will be wanted soon.
+struct AheadRequest {
+    VolumeKey key;
+    std::optional<FloatTexels> forRays; ///< VolumeProvider::readAhead
+
+    bool operator==(const AheadRequest&) const = default;
 };
 
 /// Requests are served one after another, in their order, and levels are read ahead while none comes. Its
@@ -41,14 +50,14 @@ public:
     /// Brings levels into the provider's memory (VolumeProvider::readAhead), about a MiB between two looks at
     /// the requests. Other levels than before replace what is left of those. What fails is left to who reads
     /// it.
-    void readAhead(std::vector<VolumeKey> keys);
+    void readAhead(std::vector<AheadRequest> levels);
 
 private:
     template <typename Result, typename Work>
     [[nodiscard]] std::future<Result> enqueue(Work work);
     void run();
     struct Ahead {
-        VolumeKey key;
+        AheadRequest level;
         int zBegin = 0;
     };
     void readAheadSome(const Ahead& from);
@@ -57,8 +66,8 @@ private:
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::packaged_task<void()>> waiting_;
-    std::vector<VolumeKey> asked_;                    ///< readAhead()
-    std::deque<VolumeKey> ahead_;                     ///< of those, what is left
+    std::vector<AheadRequest> asked_;                 ///< readAhead()
+    std::deque<AheadRequest> ahead_;                  ///< of those, what is left
     std::chrono::steady_clock::time_point aheadFrom_; ///< unless a request comes first
     int nextAhead_ = 0;                               ///< slice of the first of them
     bool ending_ = false;

@@ -1,5 +1,7 @@
 #include "residency/volume_upload.h"
 
+#include "volume/texel_plan.h"
+
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -69,24 +71,17 @@ void setVolumeSampling(gpu::Texture& texture, const Grid& grid) {
 VolumeUpload::VolumeUpload(const VolumeProvider& provider, VolumeKey key, bool exactR8Filtering,
                            FloatTexels floatTexels, bool onHost)
     : provider_(provider), key_(std::move(key)), onHost_(onHost) {
-    volume_.meta = provider.describe(key_.dataset);
-    validateVolumeKey(*volume_.meta, key_);
-    const FieldMeta& field = volume_.meta->fields[static_cast<std::size_t>(key_.field)];
-    const ValueStatistics& values = field.steps[static_cast<std::size_t>(key_.step)].statistics;
-    type_ = levelType(field.storedType, key_.level);
-
-    // Statistics are in values; a negative slope swaps the ends.
-    const double atMin = (values.min - field.valueOffset) / field.valueScale;
-    const double atMax = (values.max - field.valueOffset) / field.valueScale;
     // The kernels interpolate 8-bit samples exactly.
-    encoding_ = chooseTextureEncoding(type_, std::min(atMin, atMax), std::max(atMin, atMax),
-                                      exactR8Filtering || onHost, floatTexels);
-    volume_.valueScale = field.valueScale * encoding_.storedScale;
-    volume_.valueOffset = field.valueScale * encoding_.storedOffset + field.valueOffset;
+    TexelPlan plan = planTexels(provider, key_, exactR8Filtering || onHost, floatTexels);
+    type_ = plan.type;
+    encoding_ = plan.encoding;
+    volume_.valueScale = plan.valueScale;
+    volume_.valueOffset = plan.valueOffset;
     volume_.field = key_.field;
     volume_.step = key_.step;
     volume_.level = key_.level;
-    volume_.dims = levelDims(volume_.meta->grid.dims, key_.level);
+    volume_.dims = plan.dims;
+    volume_.meta = std::move(plan.meta);
 }
 
 std::uint64_t VolumeUpload::bytes() const {
@@ -101,17 +96,21 @@ bool VolumeUpload::exceedsDevice(const gpu::Context& context) const {
 
 void VolumeUpload::takeKept() {
     if (!onHost_) return;
-    auto kept = provider_.takeLevel(key_, encoding_.format);
-    if (!kept) return;
-    kept_ = true;
-    nextSlice_ = volume_.dims.z;
-    volume_.host = std::move(kept->texels);
-    volume_.minMax = std::move(kept->minMax);
-    volume_.rangesHash = kept->rangesHash;
+    if (auto kept = provider_.takeLevel(key_, encoding_.format)) {
+        kept_ = true;
+        nextSlice_ = volume_.dims.z;
+        volume_.host = std::move(kept->texels);
+        volume_.minMax = std::move(kept->minMax);
+        volume_.rangesHash = kept->rangesHash;
+    } else if (auto begun = provider_.takeUnfinished(key_, encoding_.format)) {
+        nextSlice_ = nextAsked_ = begun->slices;
+        host_ = std::move(begun->texels);
+        volume_.host = host_;
+    }
 }
 
 std::optional<gpu::Texture> VolumeUpload::begin(gpu::Context& context) {
-    if (kept_) return std::nullopt;
+    if (volume_.host) return std::nullopt; // taken over
     if (onHost_) {
         host_ = std::make_shared<HostTexels>(encoding_.format, volume_.dims, volume_.meta->grid.periodic);
         volume_.host = host_;

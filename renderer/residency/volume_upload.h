@@ -33,9 +33,9 @@ public:
     [[nodiscard]] std::uint64_t bytes() const; ///< of the texture, or of the texels in host memory
     [[nodiscard]] bool
     exceedsDevice(const gpu::Context& context) const; ///< more texels on an axis than it takes
-    /// Before begin(): takes the whole level over if the provider keeps it for rays. Then it is done.
+    /// Before begin(): takes over what the provider keeps of the level for rays.
     void takeKept();
-    [[nodiscard]] bool isKept() const { return kept_; }
+    [[nodiscard]] bool isKept() const { return kept_; } ///< all of it: it is done
     /// Throws LimitExceeded when there is no room. Nothing where the texels stay on the host.
     [[nodiscard]] std::optional<gpu::Texture> begin(gpu::Context& context);
     /// Converts and uploads chunks of slices as the reader brings them, and takes the min-max grid at last;

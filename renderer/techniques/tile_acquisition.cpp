@@ -168,11 +168,12 @@ bool isTileResident(const ResidencyManager& residency, const TileSpec& tile, con
            (!wantsGradientTexture(tile, paths) || residency.areGradientsResident(drawn.key, drawn.form));
 }
 
-std::vector<VolumeKey> missingVolumes(const ResidencyManager& residency, const TileSpec& tile,
-                                      const RenderPaths& paths, const TileLevels& levels) {
-    std::vector<VolumeKey> missing;
+std::vector<WantedVolume> missingVolumes(const ResidencyManager& residency, const TileSpec& tile,
+                                         const RenderPaths& paths, const TileLevels& levels) {
+    std::vector<WantedVolume> missing;
     const auto add = [&](const std::optional<Part>& part) {
-        if (part && !residency.isResident(part->key, part->form)) missing.push_back(part->key);
+        if (part && !residency.isResident(part->key, part->form))
+            missing.push_back({part->key, WantedPriority::Visible, part->form});
     };
     add(drawnPart(tile, paths, levels.volume));
     add(clipPart(tile, paths, levels.clipObject));

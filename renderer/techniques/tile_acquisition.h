@@ -24,8 +24,9 @@ namespace voxsheet {
                                   const RenderPaths& paths, const TileLevels& levels);
 
 /// What has to be read before it is.
-[[nodiscard]] std::vector<VolumeKey> missingVolumes(const ResidencyManager& residency, const TileSpec& tile,
-                                                    const RenderPaths& paths, const TileLevels& levels);
+[[nodiscard]] std::vector<WantedVolume> missingVolumes(const ResidencyManager& residency,
+                                                       const TileSpec& tile, const RenderPaths& paths,
+                                                       const TileLevels& levels);
 
 /// Empty as long as it must be called again. Throws as ResidencyManager::acquire.
 [[nodiscard]] std::optional<TileVolumes> acquireTileBy(ResidencyManager& residency, const TileSpec& tile,

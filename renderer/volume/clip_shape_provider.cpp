@@ -43,8 +43,9 @@ void ClipShapeProvider::dropPages(const VolumeKey& key, int zBegin, int zCount) 
 
 bool ClipShapeProvider::isAtHand(const VolumeKey& key) const { return providerOf(key.dataset).isAtHand(key); }
 
-void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount) const {
-    providerOf(key.dataset).readAhead(key, zBegin, zCount);
+void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount,
+                                  std::optional<FloatTexels> forRays) const {
+    providerOf(key.dataset).readAhead(key, zBegin, zCount, forRays);
 }
 
 void ClipShapeProvider::forgetSamples(const VolumeKey& key) const {
@@ -53,6 +54,11 @@ void ClipShapeProvider::forgetSamples(const VolumeKey& key) const {
 
 void ClipShapeProvider::keepLevel(const VolumeKey& key, const HostLevel& level) const {
     providerOf(key.dataset).keepLevel(key, level);
+}
+
+std::optional<UnfinishedLevel> ClipShapeProvider::takeUnfinished(const VolumeKey& key,
+                                                                 TexelFormat format) const {
+    return providerOf(key.dataset).takeUnfinished(key, format);
 }
 
 std::optional<HostLevel> ClipShapeProvider::takeLevel(const VolumeKey& key, TexelFormat format) const {

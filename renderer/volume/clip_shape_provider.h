@@ -22,10 +22,13 @@ public:
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
-    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override;
+    void readAhead(const VolumeKey& key, int zBegin, int zCount,
+                   std::optional<FloatTexels> forRays) const override;
     void forgetSamples(const VolumeKey& key) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
     [[nodiscard]] std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const override;
+    [[nodiscard]] std::optional<UnfinishedLevel> takeUnfinished(const VolumeKey& key,
+                                                                TexelFormat format) const override;
 
 private:
     /// The provider that has the dataset; a clip shape has been sampled when this returns.

@@ -16,6 +16,12 @@ struct HostLevel {
     std::uint64_t rangesHash = 0;             ///< contentHash(*minMax)
 };
 
+/// One of which slices [0, slices) are set.
+struct UnfinishedLevel {
+    std::shared_ptr<HostTexels> texels; ///< not null
+    int slices = 0;
+};
+
 [[nodiscard]] inline std::uint64_t bytesOf(const HostLevel& level) {
     return HostTexels::bytesFor(level.texels->format(), level.texels->dims()) +
            level.minMax->ranges.size() * sizeof(MinMaxGrid::Range);

@@ -37,11 +37,15 @@ void VolumeProvider::dropPages(const VolumeKey&, int, int) const {}
 
 bool VolumeProvider::isAtHand(const VolumeKey&) const { return true; }
 
-void VolumeProvider::readAhead(const VolumeKey&, int, int) const {}
+void VolumeProvider::readAhead(const VolumeKey&, int, int, std::optional<FloatTexels>) const {}
 
 void VolumeProvider::forgetSamples(const VolumeKey&) const {}
 
 void VolumeProvider::keepLevel(const VolumeKey&, const HostLevel&) const {}
+
+std::optional<UnfinishedLevel> VolumeProvider::takeUnfinished(const VolumeKey&, TexelFormat) const {
+    return std::nullopt;
+}
 
 std::optional<HostLevel> VolumeProvider::takeLevel(const VolumeKey&, TexelFormat) const {
     return std::nullopt;

@@ -60,16 +60,22 @@ public:
     [[nodiscard]] virtual bool isAtHand(const VolumeKey& key) const;
 
     /// Brings slices that will be read soon into the memory that the provider keeps, if it keeps any; with
-    /// the level's last slice its min-max grid, too. Throws as readSlices.
-    virtual void readAhead(const VolumeKey& key, int zBegin, int zCount) const;
+    /// the level's last slice its min-max grid, too. For rays that the processor marches as part of a level
+    /// with such texels (takeLevel, takeUnfinished), if the slices before them were read ahead likewise.
+    /// Throws as readSlices.
+    virtual void readAhead(const VolumeKey& key, int zBegin, int zCount,
+                           std::optional<FloatTexels> forRays) const;
 
-    // --- levels that were made of all their samples, for providers that keep some in memory ---
+    // --- levels for rays, of providers that keep some in memory ---
     /// The level is held by somebody else in host memory: its samples need not be kept a second time.
     virtual void forgetSamples(const VolumeKey& key) const;
     /// Keeps a level that the one who held it has no more room for, if there is room here.
     virtual void keepLevel(const VolumeKey& key, const HostLevel& level) const;
     /// Hands a kept level back and keeps it no longer; nothing if it is not kept in this format.
     [[nodiscard]] virtual std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const;
+    /// Likewise what has been read ahead of a level so far.
+    [[nodiscard]] virtual std::optional<UnfinishedLevel> takeUnfinished(const VolumeKey& key,
+                                                                        TexelFormat format) const;
 };
 
 } // namespace voxsheet

@@ -76,10 +76,10 @@ TEST(HostVolumeCache, WhatIsReadAheadIsAtHandAndNotReadAgain) {
     const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel});
     const VolumeKey key{"v0", 0, 0, 0};
     EXPECT_FALSE(cache.isAtHand(key));
-    cache.readAhead(key, 0, 20); // two blocks of 16 slices
+    cache.readAhead(key, 0, 20, std::nullopt); // two blocks of 16 slices
     EXPECT_EQ(disk->bytesRead, 32 * kSlice);
     EXPECT_FALSE(cache.isAtHand(key));
-    cache.readAhead(key, 0, kDims.z);
+    cache.readAhead(key, 0, kDims.z, std::nullopt);
     EXPECT_EQ(disk->bytesRead, kLevel);
     EXPECT_TRUE(cache.isAtHand(key));
     EXPECT_FALSE(cache.isAtHand({"v1", 0, 0, 0}));
@@ -90,14 +90,15 @@ TEST(HostVolumeCache, WhatIsReadAheadIsAtHandAndNotReadAgain) {
     (void)cache.readMinMax(key);
     EXPECT_EQ(cache.state().diskBytes, before.diskBytes);
     EXPECT_EQ(cache.state().misses, before.misses);
-    EXPECT_THROW(cache.readAhead(key, 70, 20), InvalidInput);
+    EXPECT_THROW(cache.readAhead(key, 70, 20, std::nullopt), InvalidInput);
     EXPECT_THROW((void)cache.isAtHand({"v0", 0, 0, 9}), NotFound);
 }
 
 TEST(HostVolumeCache, NothingIsReadAheadThatWouldPushOutWhatIsBeingDrawn) {
     const auto disk = std::make_shared<Disk>(1);
     const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel - 1});
-    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z);
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z, std::nullopt);
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z, FloatTexels::Full);
     EXPECT_EQ(disk->bytesRead, 0U);
 }
 
@@ -105,7 +106,8 @@ TEST(HostVolumeCache, BeforeAnythingIsKeptAllIsEquallyFarAway) {
     const auto disk = std::make_shared<Disk>(1);
     const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel, .keep = false});
     EXPECT_TRUE(cache.isAtHand({"v0", 0, 0, 0}));
-    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z);
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z, std::nullopt);
+    cache.readAhead({"v0", 0, 0, 0}, 0, kDims.z, FloatTexels::Full);
     EXPECT_EQ(disk->bytesRead, 0U);
 }
 
@@ -128,7 +130,7 @@ TEST(HostVolumeCache, AKeptLevelIsAtHandAndGivenBackOnce) {
     EXPECT_TRUE(cache.isAtHand(key));
     EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0}));
     const auto before = disk->bytesRead.load();
-    cache.readAhead(key, 0, kDims.z);
+    cache.readAhead(key, 0, kDims.z, std::nullopt);
     EXPECT_EQ(disk->bytesRead, before) << "it is there";
     EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16F)) << "another format is of no use";
     const auto taken = cache.takeLevel(key, TexelFormat::R16);
@@ -139,6 +141,72 @@ TEST(HostVolumeCache, AKeptLevelIsAtHandAndGivenBackOnce) {
     EXPECT_EQ(cache.state().bytes, 0U);
     EXPECT_FALSE(cache.isAtHand(key));
     EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16));
+}
+
+void expectSameTexels(const HostTexels& texels, const HostTexels& expected) {
+    const auto bytes = HostTexels::bytesFor(expected.format(), expected.dims());
+    ASSERT_EQ(texels.dims(), expected.dims());
+    EXPECT_EQ(std::memcmp(texels.first(), expected.first(), bytes), 0);
+}
+
+TEST(HostVolumeCache, WhatIsReadAheadForRaysIsALevel) {
+    const auto disk = std::make_shared<Disk>(2);
+    const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel});
+    const VolumeKey key{"v1", 0, 0, 0};
+    const HostLevel expected = levelOf(*disk, 1);
+    const auto before = disk->bytesRead.load();
+    for (int z = 0; z < kDims.z; z += 30) {
+        EXPECT_FALSE(cache.takeLevel(key, TexelFormat::R16));
+        EXPECT_FALSE(cache.isAtHand(key));
+        cache.readAhead(key, z, std::min(30, kDims.z - z), FloatTexels::Full);
+        EXPECT_LE(cache.state().bytes, bytesOf(expected));
+    }
+    EXPECT_TRUE(cache.isAtHand(key));
+    EXPECT_EQ(disk->bytesRead - before, kLevel);
+    EXPECT_EQ(cache.state().bytes, bytesOf(expected)) << "and no samples beside it";
+    const auto level = cache.takeLevel(key, TexelFormat::R16);
+    ASSERT_TRUE(level);
+    expectSameTexels(*level->texels, *expected.texels);
+    EXPECT_EQ(level->rangesHash, contentHash(*expected.minMax));
+    EXPECT_EQ(cache.state().bytes, 0U);
+}
+
+TEST(HostVolumeCache, WhatIsNotYetReadAheadIsTakenAsItIs) {
+    const auto disk = std::make_shared<Disk>(2);
+    const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel});
+    const VolumeKey key{"v1", 0, 0, 0};
+    cache.readAhead(key, 0, 16, FloatTexels::Full);
+    cache.readAhead(key, 16, 5, FloatTexels::Full);
+    EXPECT_GT(cache.state().bytes, kLevel) << "counted whole from the start";
+    EXPECT_FALSE(cache.takeUnfinished({"v0", 0, 0, 0}, TexelFormat::R16));
+    EXPECT_FALSE(cache.takeUnfinished(key, TexelFormat::R8));
+    const auto begun = cache.takeUnfinished(key, TexelFormat::R16);
+    ASSERT_TRUE(begun);
+    EXPECT_EQ(begun->slices, 21);
+    EXPECT_EQ(cache.state().bytes, 0U);
+    EXPECT_FALSE(cache.takeUnfinished(key, TexelFormat::R16));
+    const auto read = disk->bytesRead.load();
+    cache.readAhead(key, 21, 16, FloatTexels::Full); // there is nothing it could go on with
+    EXPECT_EQ(disk->bytesRead, read);
+    // Whoever took it goes on by himself.
+    begun->texels->setSlices(21, kDims.z - 21, ::voxsheet::read(cache, key, 21, kDims.z - 21));
+    begun->texels->closeBorders();
+    expectSameTexels(*begun->texels, *levelOf(*disk, 1).texels);
+}
+
+TEST(HostVolumeCache, WhatIsReadAheadForRaysGoesWhenOthersNeedTheRoom) {
+    const auto disk = std::make_shared<Disk>(3);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel + kLevel / 2});
+    cache.readAhead({"v0", 0, 0, 0}, 0, 16, FloatTexels::Full);
+    cache.readAhead({"v1", 0, 0, 0}, 0, 16, FloatTexels::Full);
+    EXPECT_EQ(cache.takeUnfinished({"v0", 0, 0, 0}, TexelFormat::R16)->slices, 16) << "both are there";
+    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0));
+    cache.keepLevel({"v2", 0, 0, 0}, levelOf(*disk, 2));
+    EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
+    const auto read = disk->bytesRead.load();
+    cache.readAhead({"v1", 0, 0, 0}, 16, 16, FloatTexels::Full);
+    EXPECT_EQ(disk->bytesRead, read);
+    EXPECT_FALSE(cache.takeUnfinished({"v1", 0, 0, 0}, TexelFormat::R16));
 }
 
 TEST(HostVolumeCache, KeptLevelsAndBlocksShareTheBudget) {

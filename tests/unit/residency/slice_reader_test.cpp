@@ -25,9 +25,11 @@ public:
         meta->fields.emplace_back().storedType = ScalarType::U8;
         return meta;
     }
-    void readAhead(const VolumeKey& key, int zBegin, int zCount) const override {
+    void readAhead(const VolumeKey& key, int zBegin, int zCount,
+                   std::optional<FloatTexels> forRays) const override {
         const std::lock_guard lock(mutex);
-        ahead.push_back(key.dataset + " " + std::to_string(zBegin) + "+" + std::to_string(zCount));
+        ahead.push_back(key.dataset + " " + std::to_string(zBegin) + "+" + std::to_string(zCount) +
+                        (forRays ? " for rays" : ""));
     }
     [[nodiscard]] std::vector<std::string> waitForAhead(std::size_t count) const {
         for (;;) {
@@ -82,10 +84,12 @@ TEST(SliceReader, GivesWhatWasAskedForInItsOrderAndErrorsToWhomTheyBelong) {
 TEST(SliceReader, ReadsAheadByPiecesWhileNobodyWaits) {
     const auto provider = std::make_shared<GatedProvider>();
     SliceReader reader(provider);
-    reader.readAhead({{"gone", 0, 0, 0}, {"large", 0, 0, 0}});
+    reader.readAhead({{{"gone", 0, 0, 0}, {}}, {{"large", 0, 0, 0}, {}}});
     EXPECT_EQ(provider->waitForAhead(3), (std::vector<std::string>{"large 0+1", "large 1+1", "large 2+1"}));
-    reader.readAhead({{"large", 0, 0, 0}}); // it may have gone meanwhile
+    reader.readAhead({{{"large", 0, 0, 0}, {}}}); // it may have gone meanwhile
     EXPECT_EQ(provider->waitForAhead(6).back(), "large 2+1");
+    reader.readAhead({{{"large", 0, 0, 0}, FloatTexels::Full}});
+    EXPECT_EQ(provider->waitForAhead(9).back(), "large 2+1 for rays");
 }
 
 TEST(SliceReader, RequestsGoBeforeWhatIsReadAhead) {
@@ -96,7 +100,7 @@ TEST(SliceReader, RequestsGoBeforeWhatIsReadAhead) {
     auto second = reader.read(request("a", 2));
     while (provider->reads == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    reader.readAhead({{"large", 0, 0, 0}});
+    reader.readAhead({{{"large", 0, 0, 0}, {}}});
     provider->closed = false;
     (void)second.get();
     EXPECT_EQ(provider->waitForAhead(3).size(), 3U);
