@@ -36,12 +36,21 @@ std::shared_ptr<const DatasetMeta> HostVolumeCache::describe(const std::string& 
 
 void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
                                  std::span<std::byte> out) const {
+    readBlocks(key, zBegin, zCount, out, keep_ && blocksOf(key).levelBytes <= options_.budgetBytes);
+}
+
+void HostVolumeCache::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                                     std::span<std::byte> out) const {
+    readBlocks(key, zBegin, zCount, out, false);
+}
+
+void HostVolumeCache::readBlocks(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out,
+                                 bool keepThem) const {
     const auto meta = source_->describe(key.dataset);
     if (out.size() != sliceBytes(*meta, key, zBegin, zCount).count)
         throw InvalidInput("slices to read", "the buffer has the wrong size");
     const std::size_t slice = sliceBytes(*meta, key, 0, 1).count;
     const Blocks blocks = blocksOf(key);
-    const bool fits = keep_ && blocks.levelBytes <= options_.budgetBytes;
     for (int z = zBegin; z < zBegin + zCount;) {
         const int number = z / blocks.slices;
         const int first = blocks.first(number);
@@ -51,7 +60,7 @@ void HostVolumeCache::readSlices(const VolumeKey& key, int zBegin, int zCount,
                                       static_cast<std::size_t>(end - z) * slice);
         const BlockKey blockKey{key, number};
         auto block = find(blockKey);
-        if (!block && fits) {
+        if (!block && keepThem) {
             block = readBlock(key, first, count);
             keep(blockKey, block);
         }
@@ -105,11 +114,29 @@ void HostVolumeCache::readLevelAhead(const VolumeKey& key, int zBegin, int zCoun
 
 void HostVolumeCache::beginLevel(const VolumeKey& key, const TexelPlan& plan) const {
     takeBlock({key, kUnfinishedBlock});
-    auto texels = std::make_shared<HostTexels>(plan.encoding.format, plan.dims, plan.meta->grid.periodic);
+    auto texels = texelsFor(plan);
     auto block = std::make_shared<Block>();
     block->unfinished = std::make_shared<UnfinishedLevel>(UnfinishedLevel{std::move(texels), 0});
     block->bytes = HostTexels::bytesFor(plan.encoding.format, plan.dims);
     keep({key, kUnfinishedBlock}, block);
+}
+
+std::shared_ptr<HostTexels> HostVolumeCache::texelsFor(const TexelPlan& plan) const {
+    const std::uint64_t bytes = HostTexels::bytesFor(plan.encoding.format, plan.dims);
+    Evicted evicted;
+    {
+        const std::lock_guard lock(mutex_);
+        evicted = makeRoom(bytes);
+    }
+    if (options_.pageCache == PageCacheUse::DropOverBudget) dropOf(evicted);
+    for (const auto& [key, block] : evicted) {
+        // What goes for it is the best place for it: its pages are there already. Nobody else may hold it.
+        const auto& old = block->level.texels;
+        if (old && old.use_count() == 1 && old->format() == plan.encoding.format &&
+            old->dims() == plan.dims && old->periodic() == plan.meta->grid.periodic)
+            return std::const_pointer_cast<HostTexels>(old);
+    }
+    return std::make_shared<HostTexels>(plan.encoding.format, plan.dims, plan.meta->grid.periodic);
 }
 
 void HostVolumeCache::addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan,
@@ -161,13 +188,6 @@ std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::takeBlock(const B
     auto block = found->second.block;
     remove(found);
     return block;
-}
-
-void HostVolumeCache::forgetSamples(const VolumeKey& key) const {
-    const std::lock_guard lock(mutex_);
-    auto kept = blocks_.lower_bound({key, kMinMaxBlock});
-    while (kept != blocks_.end() && kept->first.volume == key)
-        kept = remove(kept);
 }
 
 void HostVolumeCache::keepLevel(const VolumeKey& key, const HostLevel& level) const {
@@ -228,7 +248,8 @@ MinMaxGrid HostVolumeCache::readMinMax(const VolumeKey& key) const {
     block->minMax = source_->readMinMax(key);
     block->bytes = block->minMax.ranges.size() * sizeof(MinMaxGrid::Range);
     countRead(block->bytes, millisecondsSince(begun));
-    if (keep_ && block->bytes <= options_.budgetBytes) keep(blockKey, block);
+    // Beside samples only: who holds the level elsewhere holds its grid, too.
+    if (keep_ && block->bytes <= options_.budgetBytes && isKept({key, 0})) keep(blockKey, block);
     return block->minMax;
 }
 
@@ -254,17 +275,23 @@ HostVolumeCache::Kepts::iterator HostVolumeCache::remove(Kepts::iterator kept) c
     return blocks_.erase(kept);
 }
 
+HostVolumeCache::Evicted HostVolumeCache::makeRoom(std::uint64_t bytes) const {
+    Evicted evicted;
+    while (state_.bytes + bytes > options_.budgetBytes && !order_.empty()) {
+        const auto oldest = blocks_.find(order_.back());
+        ++state_.evictions;
+        evicted.emplace_back(oldest->first, oldest->second.block);
+        remove(oldest);
+    }
+    return evicted;
+}
+
 void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const {
-    std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>> evicted;
+    Evicted evicted;
     {
         const std::lock_guard lock(mutex_);
         if (blocks_.count(key) != 0) return; // another thread was faster
-        while (state_.bytes + block->bytes > options_.budgetBytes && !order_.empty()) {
-            const auto oldest = blocks_.find(order_.back());
-            ++state_.evictions;
-            evicted.emplace_back(oldest->first, oldest->second.block);
-            remove(oldest);
-        }
+        evicted = makeRoom(block->bytes);
         order_.push_front(key);
         blocks_.emplace(key, Kept{block, order_.begin()});
         state_.bytes += block->bytes;
@@ -272,8 +299,7 @@ void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Bloc
     if (options_.pageCache == PageCacheUse::DropOverBudget) dropOf(evicted);
 }
 
-void HostVolumeCache::dropOf(
-    const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const {
+void HostVolumeCache::dropOf(const Evicted& evicted) const {
     for (const auto& [key, block] : evicted) {
         if (key.block == kMinMaxBlock || key.block == kUnfinishedBlock) continue;
         try {

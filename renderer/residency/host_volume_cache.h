@@ -50,7 +50,8 @@ public:
     /// Of levels that fit the budget twice, so that those before them stay.
     void readAhead(const VolumeKey& key, int zBegin, int zCount,
                    std::optional<FloatTexels> forRays) const override;
-    void forgetSamples(const VolumeKey& key) const override;
+    void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                        std::span<std::byte> out) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
     [[nodiscard]] std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const override;
     [[nodiscard]] std::optional<UnfinishedLevel> takeUnfinished(const VolumeKey& key,
@@ -100,7 +101,12 @@ private:
     [[nodiscard]] bool isKept(const BlockKey& key) const;                         ///< likewise
     [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
     Kepts::iterator remove(Kepts::iterator kept) const; ///< under the lock
+    using Evicted = std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>;
+    Evicted makeRoom(std::uint64_t bytes) const; ///< under the lock
     void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
+    [[nodiscard]] std::shared_ptr<HostTexels> texelsFor(const TexelPlan& plan) const;
+    void readBlocks(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out,
+                    bool keepThem) const;
     [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;
     void countRead(std::uint64_t bytes, double ms) const;
     void readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const;
@@ -108,7 +114,7 @@ private:
     void addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan, int zCount) const;
     void finishLevel(const VolumeKey& key, const UnfinishedLevel& level) const;
     std::shared_ptr<const Block> takeBlock(const BlockKey& key) const;
-    void dropOf(const std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>& evicted) const;
+    void dropOf(const Evicted& evicted) const;
 
     std::shared_ptr<const VolumeProvider> source_;
     HostCacheOptions options_;

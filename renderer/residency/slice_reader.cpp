@@ -48,7 +48,10 @@ std::future<Result> SliceReader::enqueue(Work work) {
 
 std::future<std::vector<std::byte>> SliceReader::read(SliceRequest request) {
     return enqueue<std::vector<std::byte>>([provider = provider_, request = std::move(request)]() mutable {
-        provider->readSlices(request.key, request.zBegin, request.zCount, request.buffer);
+        if (request.once)
+            provider->readSlicesOnce(request.key, request.zBegin, request.zCount, request.buffer);
+        else
+            provider->readSlices(request.key, request.zBegin, request.zCount, request.buffer);
         return std::move(request.buffer);
     });
 }

@@ -22,6 +22,7 @@ struct SliceRequest {
     VolumeKey key;
     int zBegin = 0;
     int zCount = 0;
+    bool once = false;             ///< VolumeProvider::readSlicesOnce
     std::vector<std::byte> buffer; ///< what they are read into, given back as the result; of their size
 };
 

@@ -146,7 +146,7 @@ void VolumeUpload::askAhead(SliceReader& reader) {
     while (nextAsked_ < volume_.dims.z && reads_.size() < kReadsAhead) {
         const int slices = slicesOfChunk(nextAsked_);
         spare_.resize(sliceBytes * static_cast<std::size_t>(slices));
-        reads_.push_back(reader.read({key_, nextAsked_, slices, std::move(spare_)}));
+        reads_.push_back(reader.read({key_, nextAsked_, slices, onHost_, std::move(spare_)}));
         spare_ = {};
         nextAsked_ += slices;
     }
@@ -167,10 +167,7 @@ bool VolumeUpload::advance(std::optional<gpu::Texture>& texture, SliceReader& re
         askAhead(reader);
         if (reads_.empty()) {
             if (!arrived(minMax_)) return false;
-            if (host_) {
-                host_->closeBorders();
-                provider_.forgetSamples(key_);
-            }
+            if (host_) host_->closeBorders();
             volume_.minMax = std::make_shared<const MinMaxGrid>(minMax_.get());
             volume_.rangesHash = contentHash(*volume_.minMax);
             return true;

@@ -48,8 +48,9 @@ void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount,
     providerOf(key.dataset).readAhead(key, zBegin, zCount, forRays);
 }
 
-void ClipShapeProvider::forgetSamples(const VolumeKey& key) const {
-    providerOf(key.dataset).forgetSamples(key);
+void ClipShapeProvider::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                                       std::span<std::byte> out) const {
+    providerOf(key.dataset).readSlicesOnce(key, zBegin, zCount, out);
 }
 
 void ClipShapeProvider::keepLevel(const VolumeKey& key, const HostLevel& level) const {

@@ -24,7 +24,8 @@ public:
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
     void readAhead(const VolumeKey& key, int zBegin, int zCount,
                    std::optional<FloatTexels> forRays) const override;
-    void forgetSamples(const VolumeKey& key) const override;
+    void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                        std::span<std::byte> out) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
     [[nodiscard]] std::optional<HostLevel> takeLevel(const VolumeKey& key, TexelFormat format) const override;
     [[nodiscard]] std::optional<UnfinishedLevel> takeUnfinished(const VolumeKey& key,

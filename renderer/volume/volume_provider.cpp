@@ -39,7 +39,10 @@ bool VolumeProvider::isAtHand(const VolumeKey&) const { return true; }
 
 void VolumeProvider::readAhead(const VolumeKey&, int, int, std::optional<FloatTexels>) const {}
 
-void VolumeProvider::forgetSamples(const VolumeKey&) const {}
+void VolumeProvider::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                                    std::span<std::byte> out) const {
+    readSlices(key, zBegin, zCount, out);
+}
 
 void VolumeProvider::keepLevel(const VolumeKey&, const HostLevel&) const {}
 

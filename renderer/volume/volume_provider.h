@@ -67,8 +67,8 @@ public:
                            std::optional<FloatTexels> forRays) const;
 
     // --- levels for rays, of providers that keep some in memory ---
-    /// The level is held by somebody else in host memory: its samples need not be kept a second time.
-    virtual void forgetSamples(const VolumeKey& key) const;
+    /// As readSlices, for one who will hold the level in host memory: its samples need not be kept as well.
+    virtual void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
     /// Keeps a level that the one who held it has no more room for, if there is room here.
     virtual void keepLevel(const VolumeKey& key, const HostLevel& level) const;
     /// Hands a kept level back and keeps it no longer; nothing if it is not kept in this format.

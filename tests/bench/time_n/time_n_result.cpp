@@ -125,9 +125,9 @@ std::vector<std::string> absentRegimes(const TimeNResult& result) {
     std::vector<std::string> sentences;
     const auto upTo = "up to N = " + std::to_string(result.points.back().n);
     if (!result.textureSwapN)
-        sentences.push_back("no swapping of textures appears: " + upTo +
-                            " all textures that are drawn fit the budget of " +
-                            byteText(result.options.textureBudgetBytes));
+        sentences.push_back("no swapping of textures appears: " + upTo + " they fit the budget of " +
+                            byteText(result.options.textureBudgetBytes) +
+                            " or move between it and host memory without a copy");
     if (!result.memorySwapN && !result.onDisk)
         sentences.push_back("no reading from disk can appear: the datasets are in a file system in memory; "
                             "set TMPDIR to a folder on a disk");

@@ -209,6 +209,42 @@ TEST(HostVolumeCache, WhatIsReadAheadForRaysGoesWhenOthersNeedTheRoom) {
     EXPECT_FALSE(cache.takeUnfinished({"v1", 0, 0, 0}, TexelFormat::R16));
 }
 
+TEST(HostVolumeCache, WhatIsReadOnceIsNotKept) {
+    const auto disk = std::make_shared<Disk>(1);
+    const HostVolumeCache cache(disk, {.budgetBytes = 3 * kLevel, .pageCache = PageCacheUse::DropAlways});
+    const VolumeKey key{"v0", 0, 0, 0};
+    (void)read(cache, key, 0, 16); // a block
+    const auto expected = readLevel(*disk, 0);
+    const auto before = disk->bytesRead.load();
+    std::vector<std::byte> out(kLevel);
+    cache.readSlicesOnce(key, 0, kDims.z, out);
+    EXPECT_EQ(out, expected);
+    EXPECT_EQ(disk->bytesRead - before, kLevel - 16 * kSlice) << "what is kept is of use";
+    EXPECT_EQ(cache.state().bytes, 16 * kSlice);
+    EXPECT_EQ(disk->slicesDropped, kDims.z);
+}
+
+/// The memory of the level that has to go for it is used again, unless somebody looks at it still.
+TEST(HostVolumeCache, WhatIsReadAheadTakesThePlaceOfWhatGoes) {
+    const auto disk = std::make_shared<Disk>(3);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel + kLevel / 2});
+    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0));
+    cache.keepLevel({"v1", 0, 0, 0}, levelOf(*disk, 1));
+    cache.readAhead({"v2", 0, 0, 0}, 0, kDims.z, FloatTexels::Full);
+    EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0}));
+    const auto second = cache.takeLevel({"v2", 0, 0, 0}, TexelFormat::R16);
+    ASSERT_TRUE(second);
+    expectSameTexels(*second->texels, *levelOf(*disk, 2).texels);
+    const HostLevel looked = levelOf(*disk, 0);
+    cache.keepLevel({"v0", 0, 0, 0}, looked);
+    cache.readAhead({"v2", 0, 0, 0}, 0, kDims.z, FloatTexels::Full); // v1 goes
+    cache.readAhead({"v1", 0, 0, 0}, 0, kDims.z, FloatTexels::Full); // v0 goes
+    EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0}));
+    expectSameTexels(*looked.texels, *levelOf(*disk, 0).texels);
+    expectSameTexels(*second->texels, *levelOf(*disk, 2).texels);
+    EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
+}
+
 TEST(HostVolumeCache, KeptLevelsAndBlocksShareTheBudget) {
     const auto disk = std::make_shared<Disk>(3);
     HostVolumeCache cache(
@@ -223,10 +259,8 @@ TEST(HostVolumeCache, KeptLevelsAndBlocksShareTheBudget) {
     EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0})) << "the least recently used went";
     EXPECT_EQ(disk->slicesDropped, kDims.z) << "and its pages";
     EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
-    cache.forgetSamples({"v1", 0, 0, 0});
-    EXPECT_EQ(cache.state().bytes, bytesOf(levelOf(*disk, 2))) << "levels are no samples of others";
-    cache.forgetSamples({"v2", 0, 0, 0});
-    EXPECT_TRUE(cache.isAtHand({"v2", 0, 0, 0})) << "nor are they samples";
+    cache.forget("v1");
+    EXPECT_EQ(cache.state().bytes, bytesOf(levelOf(*disk, 2)));
     cache.forget("v2");
     EXPECT_EQ(cache.state().bytes, 0U);
     EXPECT_EQ(disk->slicesDropped, kDims.z);

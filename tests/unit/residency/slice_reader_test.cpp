@@ -64,7 +64,7 @@ public:
 };
 
 SliceRequest request(const std::string& dataset, int zBegin) {
-    return {{dataset, 0, 0, 0}, zBegin, 1, std::vector<std::byte>(4)};
+    return {{dataset, 0, 0, 0}, zBegin, 1, false, std::vector<std::byte>(4)};
 }
 
 TEST(SliceReader, GivesWhatWasAskedForInItsOrderAndErrorsToWhomTheyBelong) {
