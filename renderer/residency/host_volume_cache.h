@@ -33,8 +33,7 @@ struct HostCacheOptions {
 /// grids and levels that left the textures' budget whole; the least recently used go first. A level that is
 /// larger than the budget is read block by block and not kept, so that it does not push out everything else.
 /// Thread-safe, if the source is; two threads that miss the same block both read it. Memory beyond the
-/// budget: one block per reading thread,
-/// and two pieces of what is read ahead.
+/// budget: one block per reading thread, and two pieces of what is read ahead.
 class HostVolumeCache : public VolumeProvider {
 public:
     /// \param source  not null
