@@ -9,6 +9,7 @@
 #include <cstring>
 #include <random>
 #include <thread>
+#include <utility>
 
 namespace voxsheet {
 namespace {
@@ -228,12 +229,15 @@ TEST(HostVolumeCache, WhatIsReadOnceIsNotKept) {
 TEST(HostVolumeCache, WhatIsReadAheadTakesThePlaceOfWhatGoes) {
     const auto disk = std::make_shared<Disk>(3);
     const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel + kLevel / 2});
-    cache.keepLevel({"v0", 0, 0, 0}, levelOf(*disk, 0));
+    HostLevel going = levelOf(*disk, 0);
+    const HostTexels* place = going.texels.get();
+    cache.keepLevel({"v0", 0, 0, 0}, std::exchange(going, {}));
     cache.keepLevel({"v1", 0, 0, 0}, levelOf(*disk, 1));
     cache.readAhead({"v2", 0, 0, 0}, 0, kDims.z, FloatTexels::Full);
     EXPECT_FALSE(cache.isAtHand({"v0", 0, 0, 0}));
     const auto second = cache.takeLevel({"v2", 0, 0, 0}, TexelFormat::R16);
     ASSERT_TRUE(second);
+    EXPECT_EQ(second->texels.get(), place);
     expectSameTexels(*second->texels, *levelOf(*disk, 2).texels);
     const HostLevel looked = levelOf(*disk, 0);
     cache.keepLevel({"v0", 0, 0, 0}, looked);
