@@ -303,6 +303,7 @@ bool ResidencyManager::beginInBackground(PendingTexture& pending) {
 }
 
 void ResidencyManager::createTexture(PendingTexture& pending, std::optional<WantedPriority> below) {
+    if (!isGradients(pending.key().kind)) reader_->stopAhead(pending.key().volume);
     // What host memory keeps is taken first: what is evicted takes its place there.
     pending.takeKept();
     // Evict first and allocate then, so that the peak stays within the budget too.

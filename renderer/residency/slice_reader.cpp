@@ -73,6 +73,14 @@ void SliceReader::readAhead(std::vector<AheadRequest> levels) {
     wake_.notify_all();
 }
 
+void SliceReader::stopAhead(const VolumeKey& key) {
+    const std::lock_guard lock(mutex_);
+    if (ahead_.empty()) return;
+    if (ahead_.front().key == key) nextAhead_ = 0;
+    std::erase_if(ahead_, [&](const AheadRequest& level) { return level.key == key; });
+    if (ahead_.empty()) asked_.clear();
+}
+
 void SliceReader::run() {
     for (;;) {
         std::packaged_task<void()> task;

@@ -52,6 +52,8 @@ public:
     /// the requests. Other levels than before replace what is left of those. What fails is left to who reads
     /// it.
     void readAhead(std::vector<AheadRequest> levels);
+    /// The level is being brought in: it is read ahead no longer, but for a piece that may be under way.
+    void stopAhead(const VolumeKey& key);
 
 private:
     template <typename Result, typename Work>

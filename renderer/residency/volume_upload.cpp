@@ -95,18 +95,25 @@ bool VolumeUpload::exceedsDevice(const gpu::Context& context) const {
 }
 
 void VolumeUpload::takeKept() {
-    if (!onHost_) return;
-    if (auto kept = provider_.takeLevel(key_, encoding_.format)) {
-        kept_ = true;
-        nextSlice_ = volume_.dims.z;
-        volume_.host = std::move(kept->texels);
-        volume_.minMax = std::move(kept->minMax);
-        volume_.rangesHash = kept->rangesHash;
-    } else if (auto begun = provider_.takeUnfinished(key_, encoding_.format)) {
+    if (!onHost_ || takeLevel()) return;
+    if (auto begun = provider_.takeUnfinished(key_, encoding_.format)) {
         nextSlice_ = nextAsked_ = begun->slices;
         host_ = std::move(begun->texels);
         volume_.host = host_;
+    } else {
+        (void)takeLevel(); // its last piece was being read until just now
     }
+}
+
+bool VolumeUpload::takeLevel() {
+    auto kept = provider_.takeLevel(key_, encoding_.format);
+    if (!kept) return false;
+    kept_ = true;
+    nextSlice_ = volume_.dims.z;
+    volume_.host = std::move(kept->texels);
+    volume_.minMax = std::move(kept->minMax);
+    volume_.rangesHash = kept->rangesHash;
+    return true;
 }
 
 std::optional<gpu::Texture> VolumeUpload::begin(gpu::Context& context) {

@@ -49,6 +49,7 @@ public:
     [[nodiscard]] double readMs() const { return readMs_; } ///< spent in waiting for the reader
 
 private:
+    [[nodiscard]] bool takeLevel();
     [[nodiscard]] int slicesPerChunk() const;
     [[nodiscard]] int slicesOfChunk(int zBegin) const;
     void askAhead(SliceReader& reader);

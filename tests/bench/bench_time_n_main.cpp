@@ -16,7 +16,8 @@ const char* const kUsage =
     "  --technique vr|sr|vc|ie   --shading   --max-n N (64)   --dim N (256)   --tile WxH (256x256)\n"
     "  --texture-budget BYTES (256M)   --memory-budget BYTES (512M)\n"
     "  --dr off|slope|slope-first|time|rate|count|bytes (or several: off,slope)   --dr-limit X\n"
-    "  --frames N (6)   --step N (1)   --stop-ms MS   --device N   --csv FILE   --svg FILE   --figures "
+    "  --frames N (2)   --visits N (3)   --step N (1)   --stop-ms MS   --device N   --csv FILE   --svg FILE  "
+    " --figures "
     "FOLDER   --json\n";
 
 struct Arguments {
@@ -62,6 +63,7 @@ Arguments parse(int count, char** words) {
         {"--max-n", whole(a.options.maxN)},
         {"--dim", whole(a.options.dim)},
         {"--frames", whole(a.options.frames)},
+        {"--visits", whole(a.options.visits)},
         {"--step", whole(a.options.step)},
         {"--device", whole(a.options.device)},
         {"--dr-limit", [&](const std::string& word) { a.texts.drLimit = numberOf(name, word); }},

@@ -108,8 +108,11 @@ Action addTimeN(CLI::App& app) {
         "--dr-limit", a->texts.drLimit,
         "For --dr time: ms (1000), rate: frames/s (1), count: datasets (25), bytes: of level 0 (1073741824)");
     app.add_option("--frames", a->options.frames,
-                   "Frames per N, of which the median counts (6); several times as many where they are quick")
+                   "Frames per N and visit, of which the median counts (2); several times as many where they "
+                   "are quick")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--visits", a->options.visits, "Visits of each N, at different times (3)")
+        ->check(CLI::Range(1, 100));
     app.add_option("--step", a->options.step, "Measure every STEP-th N, more of those below it (1)")
         ->check(CLI::Range(1, 1024));
     app.add_option("--stop-ms", a->options.stopMs, "End the series at the first frame that takes longer");

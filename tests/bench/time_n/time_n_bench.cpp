@@ -4,71 +4,46 @@
 #include "base/errors.h"
 #include "base/host_memory.h"
 #include "bench/time_n/bench_datasets.h"
-#include "bench/time_n/machine_pace.h"
+#include "bench/time_n/measured_sheet.h"
 #include "bench/time_n/n_steps.h"
 #include "bench/time_n/other_load.h"
 #include "bench/time_n/second_look.h"
 #include "bench/time_n/stop_signals.h"
 #include "frame/render_thread.h"
-#include "frame/timer_check.h"
 #include "residency/host_volume_cache.h"
-#include "store/store_volume_provider.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace voxsheet::bench {
 
 namespace {
 
-constexpr int kCheckedTiles = 4;
-constexpr std::size_t kMostRounds = 16;
-constexpr double kLeastTotalMs = 1200.0;
-constexpr int kFirstFrames = 5; ///< until shaders are compiled and clocks are up
-
-/// What it does not keep comes from the disk: nothing is left to the system's page cache.
-std::shared_ptr<const HostVolumeCache> hostMemory(const BenchDatasets& datasets, std::uint64_t budgetBytes) {
-    HostCacheOptions options;
-    options.budgetBytes = budgetBytes;
-    options.pageCache = PageCacheUse::DropAlways;
-    return std::make_shared<const HostVolumeCache>(
-        std::make_shared<const store::StoreVolumeProvider>(datasets.store()), options);
-}
-
 class TimeNRun {
 public:
     TimeNRun(const TimeNOptions& options, const BenchDatasets& datasets,
              const std::function<void(const std::string&)>& progress)
-        : datasets_(datasets), progress_(progress), memory_(hostMemory(datasets, options.memoryBudgetBytes)),
-          thread_(memory_, {options.device, options.textureBudgetBytes}),
-          pace_(options.scene, datasets, std::make_shared<const store::StoreVolumeProvider>(datasets.store()),
-                options.device),
+        : datasets_(datasets), progress_(progress), sheet_(options, datasets),
           resolution_(options.rule, levelCount(datasets.grid().dims)) {
         result_.options = options;
-        result_.renderer = thread_.device().renderer;
+        result_.renderer = sheet_.renderer();
         result_.onDisk = datasets.onDisk();
     }
 
     [[nodiscard]] TimeNResult run() {
-        for (int frame = 0; frame < kFirstFrames; ++frame)
-            (void)draw(frameSpec(1, frame));
-        for (int n = 1; n <= result_.options.maxN; n = next(n)) {
-            measureAndKeep(n);
-            if (const auto first = firstNToMeasureAgain(n)) {
-                n = startAgainFrom(*first);
-                continue;
-            }
-            while (answer(n)) {
-            }
-            const double limit = result_.options.stopMs;
-            if (limit > 0.0 && result_.points.back().ms.value > limit) break;
-        }
+        growN();
+        for (int visit = 1; visit < result_.options.visits; ++visit)
+            visitAgain(visit);
+        if (isOff()) judge();
         result_.otherLoad = load_.share();
         result_.segments = segmentsOf(result_.points);
-        result_.timerGpuMs = timers_.gpuMs();
-        result_.timerHostMs = timers_.hostMs();
-        result_.timersAgree = timers_.agrees();
+        result_.textureSwapN = firstN(&TimeNPoint::movesTextures);
+        result_.memorySwapN = firstN(&TimeNPoint::readsDisk);
+        result_.timerGpuMs = sheet_.timers().gpuMs();
+        result_.timerHostMs = sheet_.timers().hostMs();
+        result_.timersAgree = sheet_.timers().agrees();
         if (result_.nMax == 0) result_.nMax = result_.points.back().n;
         return std::move(result_);
     }
@@ -76,118 +51,85 @@ public:
 private:
     /// The N that is measured after n.
     [[nodiscard]] int next(int n) const { return nextN(n, result_.options.step, result_.options.maxN); }
+    [[nodiscard]] bool isOff() const { return result_.options.rule.criterion == ResolutionCriterion::Off; }
 
-    [[nodiscard]] FrameSpec frameSpec(int n, int frame) const {
-        FrameSpec spec;
-        for (int index = 0; index < n; ++index)
-            spec.tiles.push_back(timeNTile(result_.options.scene, datasets_.key(index), datasets_.grid(),
-                                           resolution_.level(), frame));
-        return spec;
-    }
-
-    [[nodiscard]] FrameResult draw(FrameSpec spec) {
-        auto frame = thread_.submit(std::move(spec), FramePriority::Export, &stopRequested).get();
-        for (const auto& tile : frame.tiles)
-            if (!tile.error.empty()) throw GpuError("time-N bench", tile.error);
-        return frame;
+    /// The first visit of each N, and what the rule says to it.
+    void growN() {
+        for (int n = 1; n <= result_.options.maxN; n = next(n)) {
+            measureAndKeep(n);
+            if (const auto first = firstNToMeasureAgain(n)) {
+                n = startAgainFrom(*first);
+                continue;
+            }
+            while (!isOff() && answer(n)) {
+            }
+            const double limit = result_.options.stopMs;
+            if (limit > 0.0 && result_.points.back().ms.value > limit) break;
+        }
     }
 
     void measureAndKeep(int n) {
-        const auto point = measure(n);
-        result_.points.push_back(point);
-        char line[160];
-        std::snprintf(line, sizeof line, "N = %d, level %d: %.1f ms (upload %.1f, reading %.1f)", n,
-                      point.level, point.ms.value, point.uploadMs, point.ioMs);
-        progress_(line);
-    }
-
-    /// Of the frames of one N.
-    struct Frames {
-        std::vector<double> wallMs;
-        std::vector<double> uploadMs; ///< sums over tiles
-        std::vector<double> readMs;   ///< likewise
-        std::vector<PaceCurve::Clock::time_point> middles;
-    };
-
-    [[nodiscard]] TimeNPoint measure(int n) {
-        (void)draw(frameSpec(n, 0)); // uploads what is new
         TimeNPoint point;
         point.n = n;
         point.level = resolution_.level();
-        const auto diskBefore = memory_->state().diskBytes;
-        const Frames frames = drawRounds(point);
-        point.wallMs = measuredMedian(frames.wallMs).value;
-        point.uploadMs = measuredMedian(frames.uploadMs).value;
-        point.ioMs = measuredMedian(frames.readMs).value;
-        point.diskBytesPerFrame =
-            (memory_->state().diskBytes - diskBefore) / static_cast<std::uint64_t>(frames.wallMs.size());
-        if (point.uploadMs > 0.0 && !result_.textureSwapN) result_.textureSwapN = n;
-        if (point.diskBytesPerFrame > 0 && !result_.memorySwapN) result_.memorySwapN = n;
-        keepAtFirstPace(frames, point);
-        const auto curve = resolution_.times().curve(point.level, n);
+        const auto& times = times_[n] = sheet_.visit(n, point.level, 0);
+        for (const double ms : times.ms)
+            resolution_.addFrame(n, ms);
+        setTimes(point, times);
+        setRatios(point, resolution_.times().curve(point.level, n));
+        sheet_.checkTimers(n, point.level);
+        result_.points.push_back(point);
+        tell(point, 0);
+    }
+
+    /// There and back, so that a machine that becomes slower does not bend the curve.
+    void visitAgain(int visit) {
+        const std::size_t count = result_.points.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            auto& point = result_.points[visit % 2 == 1 ? count - 1 - i : i];
+            auto& times = times_[point.n];
+            times.add(sheet_.visit(point.n, point.level, visit));
+            setTimes(point, times);
+            tell(point, visit);
+        }
+    }
+
+    void tell(const TimeNPoint& point, int visit) const {
+        char line[160];
+        std::snprintf(line, sizeof line, "N = %d, level %d: %.1f ms (upload %.1f, reading %.1f)", point.n,
+                      point.level, point.ms.value, point.uploadMs, point.ioMs);
+        progress_(line + (visit > 0 ? ", visited " + std::to_string(visit + 1) + " times" : std::string()));
+    }
+
+    void setRatios(TimeNPoint& point, const std::vector<TimePoint>& curve) const {
         point.rawRatio = rawSlopeRatio(curve);
         point.ratio = newestSlopeRatio(segmentFrom(curve, std::max(watchedFromN_, watch_.segmentFirstN())));
-        checkTimers(n);
-        return point;
     }
 
-    [[nodiscard]] Frames drawRounds(TimeNPoint& point) {
-        Frames frames;
-        double totalMs = 0.0;
-        // Whole rounds, so that every N is seen from the same sides.
-        const auto round = static_cast<std::size_t>(result_.options.frames);
-        const auto isEnough = [&] {
-            const std::size_t count = frames.wallMs.size();
-            return count >= kMostRounds * round || (totalMs >= kLeastTotalMs && count % round == 0);
-        };
-        pace_.forget();
-        while (frames.wallMs.empty() || !isEnough()) {
-            pace_.look();
-            const auto begun = PaceCurve::Clock::now();
-            const auto drawn = draw(frameSpec(point.n, static_cast<int>(frames.wallMs.size() % round)));
-            frames.middles.push_back(begun + (PaceCurve::Clock::now() - begun) / 2);
-            frames.wallMs.push_back(drawn.wallMs);
-            totalMs += drawn.wallMs;
-            double uploadMs = 0.0;
-            double readMs = 0.0;
-            for (const auto& tile : drawn.tiles) {
-                uploadMs += tile.uploadMs;
-                readMs += tile.readMs;
-            }
-            frames.uploadMs.push_back(uploadMs);
-            frames.readMs.push_back(readMs);
-            point.residentBytes = std::max(point.residentBytes, thread_.residency().residentBytes);
-            point.hostBytes = std::max(point.hostBytes, memory_->state().bytes);
+    /// Finds the bends of a curve that no level answers to, from all visits.
+    void judge() {
+        std::vector<TimePoint> curve;
+        for (auto& point : result_.points) {
+            curve.push_back({point.n, point.ms});
+            setRatios(point, curve);
+            if (const auto bend = watch_.judge(segmentFrom(curve, watchedFromN_), ratioLimit()))
+                keepTransition(*bend, point.level, {});
         }
-        pace_.look();
-        return frames;
     }
 
-    /// What was waited for a disk stays as it was: only processors are slower for a while.
-    void keepAtFirstPace(const Frames& frames, TimeNPoint& point) {
-        std::vector<double> slowdowns;
-        std::vector<double> times;
-        for (std::size_t i = 0; i < frames.wallMs.size(); ++i) {
-            slowdowns.push_back(pace_.slowdownAt(frames.middles[i]));
-            const double readMs = std::min(frames.readMs[i], frames.wallMs[i]);
-            times.push_back(readMs + (frames.wallMs[i] - readMs) / slowdowns.back());
-            resolution_.addFrame(point.n, times.back());
-        }
-        point.slowdown = measuredMedian(slowdowns).value;
-        point.ms = measuredMedian(times);
-    }
-
-    void checkTimers(int n) {
-        auto spec = frameSpec(std::min(n, kCheckedTiles), 0);
-        spec.checkTimers = true;
-        timers_.add(draw(std::move(spec)));
+    /// The first N of any whose resting frames do that.
+    [[nodiscard]] std::optional<int> firstN(bool TimeNPoint::*does) const {
+        std::optional<int> first;
+        for (const auto* points : {&result_.points, &result_.trials})
+            for (const auto& point : *points)
+                if (point.*does) first = std::min(point.n, first.value_or(point.n));
+        return first;
     }
 
     /// When the curve breaks the rule, and that may be the machine's doing: where its segment begins.
     [[nodiscard]] std::optional<int> firstNToMeasureAgain(int n) {
         const auto criterion = result_.options.rule.criterion;
-        if (criterion != ResolutionCriterion::Off && criterion != ResolutionCriterion::Slope &&
-            criterion != ResolutionCriterion::SlopeFirst)
+        if (criterion != ResolutionCriterion::Slope && criterion != ResolutionCriterion::SlopeFirst)
             return std::nullopt;
         const auto curve = resolution_.times().curve(resolution_.level(), n);
         auto watch = watch_; // a question: the answer is answer()'s
@@ -246,9 +188,9 @@ private:
         const auto began = [&](const std::optional<int>& n) {
             return n && *n >= bend.lastN - 1 && *n <= bend.detectedN;
         };
-        if (began(result_.memorySwapN))
+        if (began(firstN(&TimeNPoint::readsDisk)))
             transition.cause = "memory budget";
-        else if (began(result_.textureSwapN))
+        else if (began(firstN(&TimeNPoint::movesTextures)))
             transition.cause = "texture budget";
         if (decision.changed) transition.newLevel = decision.level;
         if (bend.breaksRule && !decision.changed && result_.nMax == 0) result_.nMax = bend.lastN;
@@ -271,14 +213,12 @@ private:
 
     const BenchDatasets& datasets_;
     const std::function<void(const std::string&)>& progress_;
-    std::shared_ptr<const HostVolumeCache> memory_;
-    RenderThread thread_;
-    MachinePace pace_;
+    MeasuredSheet sheet_;
     DynamicResolution resolution_;
-    SecondLook look_;      ///< at the segment that is being measured
-    SlopeWatch watch_;     ///< finds the bends also when the rule is another one, or off
-    int watchedFromN_ = 0; ///< the last bend that broke the rule unanswered
-    TimerCheck timers_;
+    SecondLook look_;                 ///< at the segment that is being measured
+    SlopeWatch watch_;                ///< finds the bends also when the rule is another one, or off
+    int watchedFromN_ = 0;            ///< the last bend that broke the rule unanswered
+    std::map<int, SheetTimes> times_; ///< of result_.points, by N
     OtherLoad load_;
     TimeNResult result_;
 };
@@ -295,6 +235,7 @@ void validateOptions(const TimeNOptions& options) {
     inRange(options.maxN, 1, 1024, "--max-n");
     inRange(options.dim, 16, 1024, "--dim");
     inRange(options.frames, 1, 1000, "--frames");
+    inRange(options.visits, 1, 100, "--visits");
     inRange(options.step, 1, 1024, "--step");
     const auto budget = [](std::uint64_t bytes, const char* option) {
         if (bytes == 0)

@@ -12,13 +12,15 @@ class BenchDatasets;
 
 /// Of `datasets` the first options.maxN, which must be of options.dim.
 ///
-/// For each N: a frame that is not counted (it uploads what is new), rounds of options.frames frames with a
-/// turning camera (1 to 16 of them, until they have taken 0.4 s: the quicker, the noisier), and one with
-/// FrameSpec::checkTimers for up to four tiles. When dynamic resolution goes to a coarser level because of a
-/// bend after N = b, the sheets of b + 1 to N datasets are measured again at that level; what was measured
-/// before is kept in `trials`. `progress` is told a line for each N. Throws InvalidInput for options out of
-/// range, what a tile is at fault for (a budget too small for one volume, say), Cancelled after SIGINT or
-/// SIGTERM, GpuError, IoError.
+/// Every N is visited options.visits times, the whole curve there and back, for a virtual machine is slower
+/// at times: a frame that is not counted (it brings in what is new), and rounds of options.frames frames with
+/// a turning camera (1 to 16 of them, until all visits have taken 1.2 s: the quicker, the noisier). The first
+/// visit also draws one with FrameSpec::checkTimers for up to four tiles, and dynamic resolution decides by
+/// first visits, as it would while N grows; bends that it does not answer to (off) are judged by all. When
+/// dynamic resolution goes to a coarser level because of a bend after N = b, the sheets of b + 1 to N
+/// datasets are measured again at that level; what was measured before is kept in `trials`. `progress` is
+/// told a line for each N. Throws InvalidInput for options out of range, what a tile is at fault for (a
+/// budget too small for one volume, say), Cancelled after SIGINT or SIGTERM, GpuError, IoError.
 [[nodiscard]] TimeNResult timeNBench(const TimeNOptions& options, const BenchDatasets& datasets,
                                      const std::function<void(const std::string&)>& progress);
 

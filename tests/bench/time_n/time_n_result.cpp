@@ -126,8 +126,7 @@ std::vector<std::string> absentRegimes(const TimeNResult& result) {
     const auto upTo = "up to N = " + std::to_string(result.points.back().n);
     if (!result.textureSwapN)
         sentences.push_back("no swapping of textures appears: " + upTo + " they fit the budget of " +
-                            byteText(result.options.textureBudgetBytes) +
-                            " or move between it and host memory without a copy");
+                            byteText(result.options.textureBudgetBytes));
     if (!result.memorySwapN && !result.onDisk)
         sentences.push_back("no reading from disk can appear: the datasets are in a file system in memory; "
                             "set TMPDIR to a folder on a disk");
@@ -158,6 +157,7 @@ std::string jsonOf(const TimeNResult& result) {
                        {"texture_budget", std::to_string(options.textureBudgetBytes)},
                        {"memory_budget", std::to_string(options.memoryBudgetBytes)},
                        {"frames", std::to_string(options.frames)},
+                       {"visits", std::to_string(options.visits)},
                        {"renderer", jsonString(result.renderer)},
                        {"points", jsonListOf(result.points)},
                        {"trials", jsonListOf(result.trials)},

@@ -19,7 +19,8 @@ struct TimeNOptions {
     std::uint64_t textureBudgetBytes = std::uint64_t{256} << 20; ///< of the paper's graphics card
     std::uint64_t memoryBudgetBytes = std::uint64_t{512} << 20;  ///< of the paper's machine, about
     ResolutionRule rule;
-    int frames = 6;      ///< per N and round; the median of all counts
+    int frames = 2;      ///< per N, visit and round; the median of all counts
+    int visits = 3;      ///< of each N, at different times
     int step = 1;        ///< nextN(): every step-th, denser at small N, and maxN
     double stopMs = 0.0; ///< ends at the first N whose frame takes longer; 0: at maxN
     int device = -1;
@@ -35,11 +36,14 @@ struct TimeNPoint {
     double slowdown = 1.0; ///< of the machine meanwhile, against its pace at first (MachinePace)
     double uploadMs = 0.0; ///< medians of the frames' sums over tiles
     double ioMs = 0.0;
+    // As dynamic resolution saw them, at the first visit; when it is off, of all visits:
     std::optional<double> rawRatio;  ///< the paper's R of T_{N-2}, T_{N-1} and T_N
     std::optional<SlopeRatio> ratio; ///< the fitted one
     std::uint64_t residentBytes = 0; ///< of textures, the largest of all frames
     std::uint64_t hostBytes = 0;     ///< of host memory, likewise
     std::uint64_t diskBytesPerFrame = 0;
+    bool movesTextures = false; ///< resting frames bring in again what had to go
+    bool readsDisk = false;     ///< and read from the disk again
 };
 
 /// A run of N at one level, and how straight it is.
@@ -69,8 +73,8 @@ struct TimeNResult {
     std::vector<TimeNPoint> earlierPasses;
     std::vector<TimeNSegment> segments;
     std::vector<TimeNTransition> transitions;
-    std::optional<int> textureSwapN; ///< the first N whose resting frames upload textures again
-    std::optional<int> memorySwapN;  ///< the first N whose resting frames read from the disk again
+    std::optional<int> textureSwapN; ///< TimeNPoint::movesTextures, of the first N
+    std::optional<int> memorySwapN;  ///< TimeNPoint::readsDisk, likewise
     int nMax = 0; ///< the last N before the first bend that breaks the rule and was not answered by a coarser
                   ///< level; the last N measured when there is none
     double timerGpuMs = 0.0;

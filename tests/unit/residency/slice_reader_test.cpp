@@ -18,7 +18,7 @@ namespace {
 class GatedProvider : public VolumeProvider {
 public:
     std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override {
-        if (dataset != "large") throw NotFound(dataset, "this provider describes nothing else");
+        if (dataset != "large" && dataset != "next") throw NotFound(dataset, "this provider describes nothing else");
         auto meta = std::make_shared<DatasetMeta>();
         meta->key = dataset;
         meta->grid.dims = glm::ivec3(1024, 1024, 3); // a MiB each slice
@@ -105,6 +105,23 @@ TEST(SliceReader, RequestsGoBeforeWhatIsReadAhead) {
     (void)second.get();
     EXPECT_EQ(provider->waitForAhead(3).size(), 3U);
     EXPECT_EQ(provider->aheadAtLastRead, 0U);
+}
+
+TEST(SliceReader, WhatIsBroughtInIsReadAheadNoLonger) {
+    const auto provider = std::make_shared<GatedProvider>();
+    provider->closed = true;
+    SliceReader reader(provider);
+    auto busy = reader.read(request("a", 1));
+    while (provider->reads == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    reader.readAhead({{{"large", 0, 0, 0}, {}}, {{"next", 0, 0, 0}, {}}});
+    reader.stopAhead({"large", 0, 0, 0});
+    reader.stopAhead({"other", 0, 0, 0});
+    provider->closed = false;
+    (void)provider->waitForAhead(3);
+    reader.readAhead({{{"large", 0, 0, 0}, FloatTexels::Full}});
+    EXPECT_EQ(provider->waitForAhead(6)[3],
+              "large 0+1 for rays"); // after three pieces of the other step only
 }
 
 TEST(SliceReader, NobodyWaitsForASlowDiskUnlessAsked) {
