@@ -18,7 +18,8 @@ namespace {
 class GatedProvider : public VolumeProvider {
 public:
     std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override {
-        if (dataset != "large" && dataset != "next") throw NotFound(dataset, "this provider describes nothing else");
+        if (dataset != "large" && dataset != "next")
+            throw NotFound(dataset, "this provider describes nothing else");
         auto meta = std::make_shared<DatasetMeta>();
         meta->key = dataset;
         meta->grid.dims = glm::ivec3(1024, 1024, 3); // a MiB each slice
@@ -118,10 +119,7 @@ TEST(SliceReader, WhatIsBroughtInIsReadAheadNoLonger) {
     reader.stopAhead({"large", 0, 0, 0});
     reader.stopAhead({"other", 0, 0, 0});
     provider->closed = false;
-    (void)provider->waitForAhead(3);
-    reader.readAhead({{{"large", 0, 0, 0}, FloatTexels::Full}});
-    EXPECT_EQ(provider->waitForAhead(6)[3],
-              "large 0+1 for rays"); // after three pieces of the other step only
+    EXPECT_EQ(provider->waitForAhead(3)[0], "next 0+1");
 }
 
 TEST(SliceReader, NobodyWaitsForASlowDiskUnlessAsked) {
