@@ -141,20 +141,31 @@ std::shared_ptr<HostTexels> HostVolumeCache::texelsFor(const TexelPlan& plan) co
 
 void HostVolumeCache::addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan,
                                 int zCount) const {
-    pieces_.stored.resize(sliceBytes(*plan.meta, key, level.slices, zCount).count);
+    const auto bytes = sliceBytes(*plan.meta, key, level.slices, zCount).count;
+    if (pieces_.stored.size() < bytes) pieces_.stored = HugePageBlock(bytes);
+    const std::span<std::byte> stored(pieces_.stored.data(), bytes);
     const auto begun = Clock::now();
-    source_->readSlices(key, level.slices, zCount, pieces_.stored);
-    countRead(pieces_.stored.size(), millisecondsSince(begun));
+    if (isOverBudget())
+        source_->readSlicesOnce(key, level.slices, zCount, stored);
+    else
+        source_->readSlices(key, level.slices, zCount, stored);
+    countRead(bytes, millisecondsSince(begun));
     if (options_.pageCache == PageCacheUse::DropAlways) source_->dropPages(key, level.slices, zCount);
-    std::span<const std::byte> texels = pieces_.stored;
+    std::span<const std::byte> texels = stored;
     if (!isVerbatim(plan.type, plan.encoding)) {
-        pieces_.texels.resize(pieces_.stored.size() / scalarBytes(plan.type) *
-                              texelFormatBytes(plan.encoding.format));
-        encodeTexels(plan.type, plan.encoding, pieces_.stored, pieces_.texels);
+        pieces_.texels.resize(bytes / scalarBytes(plan.type) * texelFormatBytes(plan.encoding.format));
+        encodeTexels(plan.type, plan.encoding, stored, pieces_.texels);
         texels = pieces_.texels;
     }
     level.texels->setSlices(level.slices, zCount, texels);
     level.slices += zCount;
+}
+
+bool HostVolumeCache::isOverBudget() const {
+    if (options_.pageCache != PageCacheUse::DropOverBudget)
+        return options_.pageCache == PageCacheUse::DropAlways;
+    const std::lock_guard lock(mutex_);
+    return state_.evictions > 0;
 }
 
 void HostVolumeCache::finishLevel(const VolumeKey& key, const UnfinishedLevel& level) const {

@@ -1,6 +1,7 @@
 // Samples in host memory, up to a budget: what was read before need not be read from disk again.
 #pragma once
 
+#include "base/huge_page_block.h"
 #include "residency/host_cache_state.h"
 #include "volume/texel_plan.h"
 #include "volume/volume_provider.h"
@@ -111,6 +112,8 @@ private:
     void readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const;
     void beginLevel(const VolumeKey& key, const TexelPlan& plan) const;
     void addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan, int zCount) const;
+    /// What is read now would leave the system's page cache again: it need not go there.
+    [[nodiscard]] bool isOverBudget() const;
     void finishLevel(const VolumeKey& key, const UnfinishedLevel& level) const;
     std::shared_ptr<const Block> takeBlock(const BlockKey& key) const;
     void dropOf(const Evicted& evicted) const;
@@ -125,7 +128,8 @@ private:
 
     mutable std::mutex aheadMutex_; ///< of levels that are being read ahead; locked before mutex_
     struct Pieces {
-        std::vector<std::byte> stored, texels;
+        HugePageBlock stored; ///< begins on a page, so that a disk can write into it
+        std::vector<std::byte> texels;
     };
     mutable Pieces pieces_; ///< what is read ahead passes through
 };

@@ -9,7 +9,10 @@ namespace voxsheet {
 
 namespace {
 
+/// Of a level read ahead, at one go. For rays it comes from the disk straight into a buffer: each piece waits
+/// for the disk and then, behind the rays that are marched, for a processor.
 constexpr std::size_t kAheadBytes = std::size_t{1} << 20;
+constexpr std::size_t kAheadForRaysBytes = std::size_t{8} << 20;
 /// Between two pieces of one volume its upload asks for nothing: no time to begin another one.
 constexpr auto kAheadAfter = std::chrono::milliseconds(1);
 
@@ -115,8 +118,9 @@ void SliceReader::readAheadSome(const Ahead& from) {
         const auto meta = provider_->describe(key.dataset);
         const int depth = levelDims(meta->grid.dims, key.level).z;
         const auto slice = sliceBytes(*meta, key, 0, 1).count;
+        const auto bytes = from.level.forRays ? kAheadForRaysBytes : kAheadBytes;
         const auto slices = static_cast<int>(
-            std::clamp(kAheadBytes / slice, std::size_t{1}, static_cast<std::size_t>(depth - from.zBegin)));
+            std::clamp(bytes / slice, std::size_t{1}, static_cast<std::size_t>(depth - from.zBegin)));
         provider_->readAhead(key, from.zBegin, slices, from.level.forRays);
         if (from.zBegin + slices < depth) next = from.zBegin + slices;
     } catch (const std::exception&) {

@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::future<std::vector<std::byte>> read(SliceRequest request);
     [[nodiscard]] std::future<MinMaxGrid> readMinMax(VolumeKey key);
 
-    /// Brings levels into the provider's memory (VolumeProvider::readAhead), about a MiB between two looks at
+    /// Brings levels into the provider's memory (VolumeProvider::readAhead), some MiB between two looks at
     /// the requests. Other levels than before replace what is left of those. What fails is left to who reads
     /// it.
     void readAhead(std::vector<AheadRequest> levels);

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -62,6 +63,19 @@ void FileHandle::readAll(std::uint64_t offset, std::span<std::byte> out) const {
         offset += static_cast<std::uint64_t>(got);
         out = out.subspan(static_cast<std::size_t>(got));
     }
+}
+
+void FileHandle::readPastCache(std::uint64_t offset, std::span<std::byte> out) const {
+    const bool aligned = offset % kDirectAlignment == 0 && out.size() % kDirectAlignment == 0 &&
+                         reinterpret_cast<std::uintptr_t>(out.data()) % kDirectAlignment == 0;
+    const int flags = ::fcntl(descriptor_, F_GETFL);
+    if (!aligned || flags < 0 || ::fcntl(descriptor_, F_SETFL, flags | O_DIRECT) != 0)
+        return readAll(offset, out);
+    const auto got = ::pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
+    // Some file systems take the flag and refuse to read; what is left is read as ever, and fails as ever.
+    if (::fcntl(descriptor_, F_SETFL, flags) != 0) fail(path_, "reading", errno);
+    const auto done = static_cast<std::size_t>(std::max(got, ssize_t{0}));
+    readAll(offset + done, out.subspan(done));
 }
 
 void FileHandle::dropPages(std::uint64_t offset, std::uint64_t bytes) const {

@@ -27,6 +27,11 @@ public:
 
     /// Fills all of `out`. Throws IoError, also when the file ends before.
     void readAll(std::uint64_t offset, std::span<std::byte> out) const;
+    /// As readAll, from the disk straight into `out` where the file system can (O_DIRECT) and offset, size
+    /// and address are multiples of kDirectAlignment: the operating system's cache is not filled, and the
+    /// processor copies nothing. Not while another thread reads by the same handle.
+    void readPastCache(std::uint64_t offset, std::span<std::byte> out) const;
+    static constexpr std::size_t kDirectAlignment = 4096;
     /// The pages that hold these bytes leave the operating system's cache, if they are written and nobody has
     /// them mapped; with them up to 2 MiB before. Only advice: where it is not taken, nothing happens.
     void dropPages(std::uint64_t offset, std::uint64_t bytes) const;

@@ -94,11 +94,22 @@ FileHandle StoreEntry::openArrayFile(const VolumeKey& key) const {
     }
 }
 
-void StoreEntry::readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const {
+std::uint64_t StoreEntry::offsetOf(const VolumeKey& key, int zBegin, int zCount,
+                                   std::span<const std::byte> out) const {
     const auto range = sliceBytes(*meta_, key, zBegin, zCount);
     if (out.size() != range.count) throw InvalidInput("slices to read", "the buffer has the wrong size");
-    const auto part = arrayLayout(*meta_, key.field).levels[static_cast<std::size_t>(key.level)];
-    openArrayFile(key).readAll(part.offset + range.offset, out);
+    return arrayLayout(*meta_, key.field).levels[static_cast<std::size_t>(key.level)].offset + range.offset;
+}
+
+void StoreEntry::readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const {
+    const auto offset = offsetOf(key, zBegin, zCount, out);
+    openArrayFile(key).readAll(offset, out);
+}
+
+void StoreEntry::readSlicesPastCache(const VolumeKey& key, int zBegin, int zCount,
+                                     std::span<std::byte> out) const {
+    const auto offset = offsetOf(key, zBegin, zCount, out);
+    openArrayFile(key).readPastCache(offset, out);
 }
 
 void StoreEntry::dropPages(const VolumeKey& key, int zBegin, int zCount) const {

@@ -27,6 +27,8 @@ public:
 
     /// As VolumeProvider::readSlices. Throws IoError if the files are gone or became shorter.
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
+    /// Likewise, past the operating system's cache where that can be (FileHandle::readPastCache).
+    void readSlicesPastCache(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const;
     /// As VolumeProvider::dropPages.
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const;
@@ -43,6 +45,9 @@ private:
     /// As open, of an entry that does not bear its key's name yet.
     [[nodiscard]] static std::shared_ptr<const StoreEntry>
     openAs(const std::string& key, const std::filesystem::path& folder, bool& damaged);
+    /// Where the slices are in the array's file. Throws as readSlices.
+    [[nodiscard]] std::uint64_t offsetOf(const VolumeKey& key, int zBegin, int zCount,
+                                         std::span<const std::byte> out) const;
     [[nodiscard]] FileHandle openArrayFile(const VolumeKey& key) const;
 
     FileHandle folder_; ///< open, because a writer may rename it

@@ -23,6 +23,11 @@ void StoreVolumeProvider::readSlices(const VolumeKey& key, int zBegin, int zCoun
     entry(key.dataset)->readSlices(key, zBegin, zCount, out);
 }
 
+void StoreVolumeProvider::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                                         std::span<std::byte> out) const {
+    entry(key.dataset)->readSlicesPastCache(key, zBegin, zCount, out);
+}
+
 MinMaxGrid StoreVolumeProvider::readMinMax(const VolumeKey& key) const {
     return entry(key.dataset)->readMinMax(key);
 }

@@ -18,6 +18,9 @@ public:
 
     [[nodiscard]] std::shared_ptr<const DatasetMeta> describe(const std::string& dataset) const override;
     void readSlices(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const override;
+    /// Past the operating system's cache where that can be: StoreEntry::readSlicesPastCache.
+    void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
+                        std::span<std::byte> out) const override;
     [[nodiscard]] MinMaxGrid readMinMax(const VolumeKey& key) const override;
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
 

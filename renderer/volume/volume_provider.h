@@ -67,7 +67,8 @@ public:
                            std::optional<FloatTexels> forRays) const;
 
     // --- levels for rays, of providers that keep some in memory ---
-    /// As readSlices, for one who will hold the level in host memory: its samples need not be kept as well.
+    /// As readSlices, for one who will hold the level in host memory: its samples need not be kept as well,
+    /// here or by the operating system.
     virtual void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount, std::span<std::byte> out) const;
     /// Keeps a level that the one who held it has no more room for, if there is room here.
     virtual void keepLevel(const VolumeKey& key, const HostLevel& level) const;

@@ -1,4 +1,5 @@
 #include "base/errors.h"
+#include "base/huge_page_block.h"
 #include "store/meta_json.h"
 #include "store/store_key.h"
 #include "store/store_volume_provider.h"
@@ -76,6 +77,33 @@ TEST_F(StoreTest, DropsThePagesOfSlicesThatAreNotWantedSoon) {
     auto again = samples;
     volumes.readSlices(key, 0, dims.z, again);
     EXPECT_EQ(again, samples);
+}
+
+TEST_F(StoreTest, GivesTheSameSamplesPastTheSystemsCache) {
+    const glm::ivec3 dims(256, 256, 16);
+    auto store = std::make_shared<VolumeStore>(folder());
+    StoreWriter writer(*store, sampleMeta("abc", dims));
+    writer.addArray(0, 0, rampSamples(dims));
+    writer.commit();
+    const StoreVolumeProvider volumes(store);
+    std::vector<std::byte> samples(static_cast<std::size_t>(sampleCount(dims)) * 2);
+    const VolumeKey key{"abc", 0, 0, 0};
+    volumes.readSlices(key, 0, dims.z, samples);
+    volumes.dropPages(key, 0, dims.z);
+    const auto file = folder() / "abc" / arrayFileName(0, 0);
+    const auto before = cachedPages(file);
+    HugePageBlock block(samples.size() + 64);
+    const std::span<std::byte> aligned(block.data(), samples.size());
+    const std::span<std::byte> between(block.data() + 64, samples.size());
+    volumes.readSlicesOnce(key, 0, dims.z, aligned);
+    EXPECT_TRUE(std::equal(samples.begin(), samples.end(), aligned.begin()));
+    const auto after = cachedPages(file);
+    volumes.readSlicesOnce(key, 0, dims.z, between);
+    EXPECT_TRUE(std::equal(samples.begin(), samples.end(), between.begin()));
+    fs::resize_file(file, samples.size() - 4096);
+    EXPECT_THROW(volumes.readSlicesOnce(key, 0, dims.z, aligned), IoError) << "shorter than it was";
+    if (before == 0 && after > 256) GTEST_SKIP() << "this file system reads nothing past the cache";
+    EXPECT_LE(after, before);
 }
 
 TEST_F(StoreTest, GivesWhatTheMemoryProviderGives) {
