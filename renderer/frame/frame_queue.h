@@ -25,6 +25,7 @@ struct FrameJob {
     std::vector<bool> issued;                      ///< per tile: drawing has been queued
     std::vector<std::optional<TileLevels>> levels; ///< per tile, once it has been looked at
     std::vector<std::optional<bool>> atHand;       ///< per tile, once it was looked at: its samples are
+    std::optional<std::size_t> ahead;              ///< the tile that the disk reads for, or did last
     std::size_t issuedCount = 0;
     std::size_t finishedCount = 0; ///< tiles with pixels or an error, and absent ones
     bool waitedForAbsent = false;  ///< a tile was left out after some waiting: the others wait no more

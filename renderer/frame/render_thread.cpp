@@ -2,8 +2,8 @@
 
 #include "base/errors.h"
 #include "base/log.h"
+#include "frame/frame_order.h"
 #include "frame/frame_queue.h"
-#include "frame/tile_order.h"
 #include "frame/tile_renderer.h"
 
 #include <algorithm>
@@ -152,6 +152,7 @@ private:
 
     void startRenderer() {
         renderer_ = std::make_unique<TileRenderer>(volumes_, options_.device, options_.textureBudgetBytes);
+        order_.emplace(*renderer_);
         if (paths_.empty()) paths_ = choosePaths();
         renderer_->setPaths(pathsOf(paths_));
         renderer_->residency().setWanted(wanted_);
@@ -197,7 +198,7 @@ private:
             partlyDrawn_.erase(partly);
             resumeTile(std::move(drawing));
         } else if (job->issuedCount < job->frame.tiles.size()) {
-            beginTile(job, nextTile(*job));
+            beginTile(job, order_->next(job));
         }
         while (alone && !inFlight_.empty())
             finishOldest();
@@ -216,47 +217,13 @@ private:
         }
     }
 
-    /// While it is drawn, the disk reads for the one after it.
-    [[nodiscard]] std::size_t nextTile(FrameJob& job) const {
-        const auto choice = chooseTile(job.issued, [&](std::size_t tile) { return readiness(job, tile); });
-        if (choice.after && readiness(job, *choice.after) == TileReadiness::OnDisk)
-            renderer_->residency().readAhead(
-                renderer_->missing(job.frame.tiles[*choice.after], levelsOf(job, *choice.after)));
-        return choice.tile;
-    }
-
-    [[nodiscard]] TileReadiness readiness(FrameJob& job, std::size_t tile) const {
-        if (job.frame.levels == LevelChoice::AtHand) return TileReadiness::Resident; // or left out
-        try {
-            const auto& spec = job.frame.tiles[tile];
-            if (renderer_->isResident(spec, levelsOf(job, tile))) return TileReadiness::Resident;
-            if (!job.atHand[tile]) job.atHand[tile] = isAtHand(spec, levelsOf(job, tile));
-            return *job.atHand[tile] ? TileReadiness::AtHand : TileReadiness::OnDisk;
-        } catch (const Error&) {
-            return TileReadiness::Resident; // to be failed
-        }
-    }
-
-    [[nodiscard]] bool isAtHand(const TileSpec& tile, const TileLevels& levels) const {
-        const auto missing = renderer_->missing(tile, levels);
-        return std::all_of(missing.begin(), missing.end(), [&](const WantedVolume& volume) {
-            return renderer_->residency().isAtHand(volume.key);
-        });
-    }
-
-    [[nodiscard]] const TileLevels& levelsOf(FrameJob& job, std::size_t tile) const {
-        auto& levels = job.levels[tile];
-        if (!levels) levels = renderer_->levelsFor(job.frame.tiles[tile], job.frame.levels);
-        return *levels;
-    }
-
     /// Draws the tile, or brings in some of what it needs.
     void beginTile(const std::shared_ptr<FrameJob>& job, std::size_t tile) {
         try {
             const bool atHand = job->frame.levels == LevelChoice::AtHand;
             const Deadline deadline = job->waitedForAbsent ? std::chrono::steady_clock::now() : sliceEnd();
-            auto drawing = renderer_->begin(job->frame.tiles[tile], job->frame, levelsOf(*job, tile),
-                                            deadline, breaksOf(*job));
+            auto drawing = renderer_->begin(job->frame.tiles[tile], job->frame,
+                                            levelsOf(*renderer_, *job, tile), deadline, breaksOf(*job));
             if (!drawing && atHand) {
                 leaveOut(*job, tile);
             } else if (!drawing) {
@@ -299,8 +266,8 @@ private:
         const auto job = drawing.job;
         const auto tile = drawing.tile;
         try {
-            renderer_->resume(*drawing.drawing, job->frame.tiles[tile], job->frame, levelsOf(*job, tile),
-                              sliceEnd());
+            renderer_->resume(*drawing.drawing, job->frame.tiles[tile], job->frame,
+                              levelsOf(*renderer_, *job, tile), sliceEnd());
             keepDrawing(std::move(drawing));
         } catch (...) {
             markIssued(*job, tile);
@@ -340,7 +307,8 @@ private:
             return;
         }
         try {
-            renderer_->bringIn(job->frame.tiles[waiting_.tile], levelsOf(*job, waiting_.tile), sliceEnd());
+            renderer_->bringIn(job->frame.tiles[waiting_.tile], levelsOf(*renderer_, *job, waiting_.tile),
+                               sliceEnd());
         } catch (const std::exception&) {
             waiting_ = {}; // The tile itself meets the same error, and keeps it.
         }
@@ -428,6 +396,7 @@ private:
 
     // Of the render thread alone.
     std::unique_ptr<TileRenderer> renderer_; ///< null after the device was lost
+    std::optional<FrameOrder> order_;        ///< of renderer_'s tiles
     std::vector<WantedVolume> wanted_;
     struct Waiting {
         std::weak_ptr<FrameJob> job;

@@ -17,7 +17,8 @@ enum class TileReadiness {
 
 struct TileChoice {
     std::size_t tile = 0;
-    std::optional<std::size_t> after; ///< the next one, as things stand
+    /// The first other one whose samples are on the disk, when no other one waits for nothing.
+    std::optional<std::size_t> ahead;
 };
 
 /// Of the tiles that are not issued yet (one at least), the readiest and of those the first. Those whose

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace voxsheet {
@@ -96,7 +97,11 @@ void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount,
     if (forRays) return readLevelAhead(key, zBegin, zCount, *forRays);
     for (int number = zBegin / blocks.slices; blocks.first(number) < zBegin + zCount; ++number) {
         const BlockKey blockKey{key, number};
-        if (!isKept(blockKey)) keep(blockKey, readBlock(key, blocks.first(number), blocks.count(number)));
+        const int first = blocks.first(number);
+        const int count = blocks.count(number);
+        if (isKept(blockKey)) continue;
+        if (!fitsBesideAwaited(sliceBytes(*source_->describe(key.dataset), key, first, count).count)) return;
+        keep(blockKey, readBlock(key, first, count));
     }
     if (zBegin + zCount == blocks.depth && !isKept({key, kMinMaxBlock})) (void)readMinMax(key);
 }
@@ -104,7 +109,7 @@ void HostVolumeCache::readAhead(const VolumeKey& key, int zBegin, int zCount,
 void HostVolumeCache::readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const {
     const std::lock_guard lock(aheadMutex_);
     const TexelPlan plan = planTexels(*source_, key, true, floats);
-    if (zBegin == 0) beginLevel(key, plan);
+    if (zBegin == 0 && !beginLevel(key, plan)) return;
     const auto block = lookUp({key, kUnfinishedBlock});
     // Gone: it was taken, or had to make room.
     if (!block || block->unfinished->slices != zBegin) return;
@@ -112,13 +117,15 @@ void HostVolumeCache::readLevelAhead(const VolumeKey& key, int zBegin, int zCoun
     if (block->unfinished->slices == plan.dims.z) finishLevel(key, *block->unfinished);
 }
 
-void HostVolumeCache::beginLevel(const VolumeKey& key, const TexelPlan& plan) const {
+bool HostVolumeCache::beginLevel(const VolumeKey& key, const TexelPlan& plan) const {
     takeBlock({key, kUnfinishedBlock});
+    if (!fitsBesideAwaited(HostTexels::bytesFor(plan.encoding.format, plan.dims))) return false;
     auto texels = texelsFor(plan);
     auto block = std::make_shared<Block>();
     block->unfinished = std::make_shared<UnfinishedLevel>(UnfinishedLevel{std::move(texels), 0});
     block->bytes = HostTexels::bytesFor(plan.encoding.format, plan.dims);
     keep({key, kUnfinishedBlock}, block);
+    return true;
 }
 
 std::shared_ptr<HostTexels> HostVolumeCache::texelsFor(const TexelPlan& plan) const {
@@ -276,20 +283,62 @@ std::shared_ptr<const HostVolumeCache::Block> HostVolumeCache::find(const BlockK
         return nullptr;
     }
     ++state_.hits;
-    order_.splice(order_.begin(), order_, found->second.order);
+    auto& order = orderOf(found->second);
+    order.splice(order.begin(), order, found->second.order);
     return found->second.block;
 }
 
 HostVolumeCache::Kepts::iterator HostVolumeCache::remove(Kepts::iterator kept) const {
     state_.bytes -= kept->second.block->bytes;
-    order_.erase(kept->second.order);
+    if (kept->second.awaited) awaitedBytes_ -= kept->second.block->bytes;
+    orderOf(kept->second).erase(kept->second.order);
     return blocks_.erase(kept);
 }
 
+// --- what is awaited ---
+
+std::list<HostVolumeCache::BlockKey>& HostVolumeCache::orderOf(const Kept& kept) const {
+    return kept.awaited ? awaitedOrder_ : order_;
+}
+
+void HostVolumeCache::markAwaited(Kept& kept, bool awaited) const {
+    if (kept.awaited == awaited) return;
+    auto& from = orderOf(kept);
+    kept.awaited = awaited;
+    auto& to = orderOf(kept);
+    to.splice(to.begin(), from, kept.order);
+    if (awaited)
+        awaitedBytes_ += kept.block->bytes;
+    else
+        awaitedBytes_ -= kept.block->bytes;
+}
+
+void HostVolumeCache::setAwaited(const std::vector<VolumeKey>& levels) const {
+    const std::lock_guard lock(mutex_);
+    awaited_ = {levels.begin(), levels.end()};
+    for (auto& [key, kept] : blocks_)
+        markAwaited(kept, awaited_.count(key.volume) != 0);
+}
+
+void HostVolumeCache::endAwaited(const VolumeKey& level) const {
+    const std::lock_guard lock(mutex_);
+    if (awaited_.erase(level) == 0) return;
+    for (auto kept = blocks_.lower_bound({level, std::numeric_limits<int>::min()});
+         kept != blocks_.end() && kept->first.volume == level; ++kept)
+        markAwaited(kept->second, false);
+}
+
+bool HostVolumeCache::fitsBesideAwaited(std::uint64_t bytes) const {
+    const std::lock_guard lock(mutex_);
+    return awaitedBytes_ + bytes <= options_.budgetBytes;
+}
+
+// --- room ---
+
 HostVolumeCache::Evicted HostVolumeCache::makeRoom(std::uint64_t bytes) const {
     Evicted evicted;
-    while (state_.bytes + bytes > options_.budgetBytes && !order_.empty()) {
-        const auto oldest = blocks_.find(order_.back());
+    while (state_.bytes + bytes > options_.budgetBytes && !blocks_.empty()) {
+        const auto oldest = blocks_.find(order_.empty() ? awaitedOrder_.back() : order_.back());
         ++state_.evictions;
         evicted.emplace_back(oldest->first, oldest->second.block);
         remove(oldest);
@@ -303,9 +352,12 @@ void HostVolumeCache::keep(const BlockKey& key, const std::shared_ptr<const Bloc
         const std::lock_guard lock(mutex_);
         if (blocks_.count(key) != 0) return; // another thread was faster
         evicted = makeRoom(block->bytes);
-        order_.push_front(key);
-        blocks_.emplace(key, Kept{block, order_.begin()});
+        Kept kept{block, {}, awaited_.count(key.volume) != 0};
+        auto& order = orderOf(kept);
+        kept.order = order.insert(order.begin(), key);
+        if (kept.awaited) awaitedBytes_ += block->bytes;
         state_.bytes += block->bytes;
+        blocks_.emplace(key, std::move(kept));
     }
     if (options_.pageCache == PageCacheUse::DropOverBudget) dropOf(evicted);
 }

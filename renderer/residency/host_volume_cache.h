@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace voxsheet {
@@ -31,10 +32,10 @@ struct HostCacheOptions {
 };
 
 /// A provider in front of another one. Samples are kept in blocks of whole slices, about 1 MiB each, min-max
-/// grids and levels that left the textures' budget whole; the least recently used go first. A level that is
-/// larger than the budget is read block by block and not kept, so that it does not push out everything else.
-/// Thread-safe, if the source is; two threads that miss the same block both read it. Memory beyond the
-/// budget: one block per reading thread, and two pieces of what is read ahead.
+/// grids and levels that left the textures' budget whole; the least recently used go first, what is awaited
+/// last. A level that is larger than the budget is read block by block and not kept, so that it does not push
+/// out everything else. Thread-safe, if the source is; two threads that miss the same block both read it.
+/// Memory beyond the budget: one block per reading thread, and two pieces of what is read ahead.
 class HostVolumeCache : public VolumeProvider {
 public:
     /// \param source  not null
@@ -47,9 +48,11 @@ public:
     void dropPages(const VolumeKey& key, int zBegin, int zCount) const override;
     /// All of its samples and its min-max grid are kept, or nothing is yet.
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
-    /// Of levels that fit the budget twice, so that those before them stay.
+    /// Of levels that fit the budget twice, so that those before them stay, and beside what is awaited.
     void readAhead(const VolumeKey& key, int zBegin, int zCount,
                    std::optional<FloatTexels> forRays) const override;
+    void setAwaited(const std::vector<VolumeKey>& levels) const override;
+    void endAwaited(const VolumeKey& level) const override;
     void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
                         std::span<std::byte> out) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;
@@ -80,7 +83,8 @@ private:
     };
     struct Kept {
         std::shared_ptr<const Block> block;
-        std::list<BlockKey>::iterator order;
+        std::list<BlockKey>::iterator order; ///< in orderOf()
+        bool awaited = false;
     };
     static constexpr int kMinMaxBlock = -1;
     static constexpr int kLevelBlock = -2;      ///< HostLevel
@@ -100,7 +104,10 @@ private:
     [[nodiscard]] std::shared_ptr<const Block> lookUp(const BlockKey& key) const; ///< which is no use of it
     [[nodiscard]] bool isKept(const BlockKey& key) const;                         ///< likewise
     [[nodiscard]] std::shared_ptr<const Block> find(const BlockKey& key) const;
-    Kepts::iterator remove(Kepts::iterator kept) const; ///< under the lock
+    Kepts::iterator remove(Kepts::iterator kept) const;   ///< under the lock
+    std::list<BlockKey>& orderOf(const Kept& kept) const; ///< likewise
+    void markAwaited(Kept& kept, bool awaited) const;     ///< likewise
+    [[nodiscard]] bool fitsBesideAwaited(std::uint64_t bytes) const;
     using Evicted = std::vector<std::pair<BlockKey, std::shared_ptr<const Block>>>;
     Evicted makeRoom(std::uint64_t bytes) const; ///< under the lock
     void keep(const BlockKey& key, const std::shared_ptr<const Block>& block) const;
@@ -110,7 +117,8 @@ private:
     [[nodiscard]] std::shared_ptr<const Block> readBlock(const VolumeKey& key, int zBegin, int zCount) const;
     void countRead(std::uint64_t bytes, double ms) const;
     void readLevelAhead(const VolumeKey& key, int zBegin, int zCount, FloatTexels floats) const;
-    void beginLevel(const VolumeKey& key, const TexelPlan& plan) const;
+    /// False: there is no room.
+    [[nodiscard]] bool beginLevel(const VolumeKey& key, const TexelPlan& plan) const;
     void addSlices(const VolumeKey& key, UnfinishedLevel& level, const TexelPlan& plan, int zCount) const;
     /// What is read now would leave the system's page cache again: it need not go there.
     [[nodiscard]] bool isOverBudget() const;
@@ -124,6 +132,9 @@ private:
     mutable std::mutex mutex_;
     mutable Kepts blocks_;
     mutable std::list<BlockKey> order_; ///< most recently used first
+    mutable std::set<VolumeKey> awaited_;
+    mutable std::list<BlockKey> awaitedOrder_; ///< of what is kept of those; it goes after all others
+    mutable std::uint64_t awaitedBytes_ = 0;   ///< likewise
     mutable HostCacheState state_;
 
     mutable std::mutex aheadMutex_; ///< of levels that are being read ahead; locked before mutex_

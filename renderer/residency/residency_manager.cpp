@@ -306,6 +306,7 @@ void ResidencyManager::createTexture(PendingTexture& pending, std::optional<Want
     if (!isGradients(pending.key().kind)) reader_->stopAhead(pending.key().volume);
     // What host memory keeps is taken first: what is evicted takes its place there.
     pending.takeKept();
+    provider_->endAwaited(pending.key().volume);
     // Evict first and allocate then, so that the peak stays within the budget too.
     while (occupiedBytes() + pending.bytes() > budgetBytes_ && evictOne(below, pending)) {
     }
@@ -350,6 +351,13 @@ void ResidencyManager::readAhead(const std::vector<WantedVolume>& volumes) {
     for (const WantedVolume& volume : volumes)
         levels.push_back({volume.key, volume.form.onHost ? std::optional(volume.form.floats) : std::nullopt});
     reader_->readAhead(std::move(levels));
+}
+
+void ResidencyManager::setAwaited(const std::vector<WantedVolume>& volumes) {
+    std::vector<VolumeKey> levels;
+    for (const WantedVolume& volume : volumes)
+        levels.push_back(volume.key);
+    provider_->setAwaited(levels);
 }
 
 // --- what it would take ---

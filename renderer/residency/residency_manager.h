@@ -98,6 +98,9 @@ public:
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const;
     /// Reads samples into host memory, when nothing else is read. Replaces what was asked for before.
     void readAhead(const std::vector<WantedVolume>& volumes);
+    /// Volumes that are about to be brought in: what host memory keeps of others goes first. Replaces those
+    /// named before.
+    void setAwaited(const std::vector<WantedVolume>& volumes);
 
     // --- what it would take ---
     /// Bytes of the texture. Throws NotFound as acquire.

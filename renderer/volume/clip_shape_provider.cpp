@@ -48,6 +48,12 @@ void ClipShapeProvider::readAhead(const VolumeKey& key, int zBegin, int zCount,
     providerOf(key.dataset).readAhead(key, zBegin, zCount, forRays);
 }
 
+void ClipShapeProvider::setAwaited(const std::vector<VolumeKey>& levels) const {
+    others_->setAwaited(levels); // shapes are in memory
+}
+
+void ClipShapeProvider::endAwaited(const VolumeKey& level) const { others_->endAwaited(level); }
+
 void ClipShapeProvider::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
                                        std::span<std::byte> out) const {
     providerOf(key.dataset).readSlicesOnce(key, zBegin, zCount, out);

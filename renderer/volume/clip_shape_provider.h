@@ -24,6 +24,8 @@ public:
     [[nodiscard]] bool isAtHand(const VolumeKey& key) const override;
     void readAhead(const VolumeKey& key, int zBegin, int zCount,
                    std::optional<FloatTexels> forRays) const override;
+    void setAwaited(const std::vector<VolumeKey>& levels) const override;
+    void endAwaited(const VolumeKey& level) const override;
     void readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
                         std::span<std::byte> out) const override;
     void keepLevel(const VolumeKey& key, const HostLevel& level) const override;

@@ -39,6 +39,10 @@ bool VolumeProvider::isAtHand(const VolumeKey&) const { return true; }
 
 void VolumeProvider::readAhead(const VolumeKey&, int, int, std::optional<FloatTexels>) const {}
 
+void VolumeProvider::setAwaited(const std::vector<VolumeKey>&) const {}
+
+void VolumeProvider::endAwaited(const VolumeKey&) const {}
+
 void VolumeProvider::readSlicesOnce(const VolumeKey& key, int zBegin, int zCount,
                                     std::span<std::byte> out) const {
     readSlices(key, zBegin, zCount, out);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace voxsheet {
 
@@ -65,6 +66,12 @@ public:
     /// Throws as readSlices.
     virtual void readAhead(const VolumeKey& key, int zBegin, int zCount,
                            std::optional<FloatTexels> forRays) const;
+
+    /// Levels that are about to be read, in place of those named before: where memory is short, what is kept
+    /// of others goes first, and nothing is read ahead in place of what is kept of these.
+    virtual void setAwaited(const std::vector<VolumeKey>& levels) const;
+    /// The level is being read: it is awaited no longer.
+    virtual void endAwaited(const VolumeKey& level) const;
 
     // --- levels for rays, of providers that keep some in memory ---
     /// As readSlices, for one who will hold the level in host memory: its samples need not be kept as well,

@@ -65,17 +65,18 @@ edit() {
         { cat "$work/answer" "$work/picture.jpg" >&2 || true; return 1; }
     milliseconds "$(now) - began"
 }
-# The ninth cell becomes the formula $1.
+# The ninth cell becomes the formula $1. Its picture is asked for every 5 ms, over the same connection (what
+# stands behind # is not sent): to start a program for each question would take a processor from the answer.
 formula() {
-    local began status cell="${url}api/v1/sheets/Sheet1/cells/C3"; began="$(now)"
-    local picture=(-o "$work/answer" -w '%{http_code}' "$cell/image.jpg?width=256&height=256&quality=half")
-    status="$(curl --fail-with-body --fail-early -sS -X PATCH "$cell" -H 'Content-Type: application/json' -d "$1" \
-        -o "$work/answer" --next -s "${picture[@]}")" || { cat "$work/answer" >&2; return 1; }
-    while [ "$status" = 409 ]; do # it is not computed yet
-        [ "$(($(now) - began))" -lt 30000000000 ] || break
-        status="$(curl -s "${picture[@]}")"
-    done
-    [ "$status" = 200 ] || { echo "no picture of $1: $(cat "$work/answer")" >&2; return 1; }
+    local began asking status=none cell="${url}api/v1/sheets/Sheet1/cells/C3"; began="$(now)"
+    exec 4< <(exec curl --fail-with-body --fail-early -sS --rate 200/s -X PATCH "$cell" \
+        -H 'Content-Type: application/json' -d "$1" -o "$work/answer" --next -s -o "$work/answer" \
+        -w '%{stderr}%{http_code}\n' "$cell/image.jpg?width=256&height=256&quality=half#[1-6000]" 2>&1)
+    asking=$!
+    while read -r status <&4 && [ "$status" = 409 ]; do :; done # it is not computed yet
+    kill "$asking" 2>/dev/null || true
+    exec 4<&-
+    [ "$status" = 200 ] || { echo "no picture of $1: $status $(cat "$work/answer")" >&2; return 1; }
     milliseconds "$(now) - began"
 }
 # p95 NAME BODY [WHAT: edit]: the body's % stands for a number from 0.10 to 0.90.

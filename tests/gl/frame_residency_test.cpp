@@ -3,11 +3,13 @@
 
 #include "base/errors.h"
 #include "gl_fixture.h"
+#include "residency/host_volume_cache.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 namespace voxsheet {
@@ -28,11 +30,15 @@ public:
         if (failing || (failingLevel0 && key.level == 0))
             throw IoError("the disk", "it gave nothing", "try again");
         if (key.level == 0) std::this_thread::sleep_for(delay.load());
+        if (key.dataset == watched && !readAt) readAt = tilesBegun.load();
         MemoryVolumeProvider::readSlices(key, zBegin, zCount, out);
     }
     std::atomic<std::chrono::milliseconds> delay{std::chrono::milliseconds(0)};
     std::atomic<bool> failing{false};
     std::atomic<bool> failingLevel0{false};
+    std::string watched;               ///< a dataset
+    mutable std::optional<int> readAt; ///< tilesBegun when the watched one was first read
+    std::atomic<int> tilesBegun{0};
     std::string blocked; ///< a dataset whose reads end only when the gate is open
     std::atomic<bool> gate{false};
     void openGate() {
@@ -183,6 +189,29 @@ TEST_F(FrameResidency, PicturesOfASwappedWorkingSetAreThoseOfALargeBudget) {
         EXPECT_LE(tight.residency().residentBytes, tight.residency().budgetBytes);
     }
     EXPECT_GT(tight.residency().evictions, 6U);
+}
+
+TEST_F(FrameResidency, TheDiskReadsWhileTilesThatAreAtHandAreDrawn) {
+    const auto memory = std::make_shared<HostVolumeCache>(
+        provider_, HostCacheOptions{.budgetBytes = 6 * kBytes, .pageCache = PageCacheUse::Keep});
+    RenderThread roomy(provider_, {});
+    RenderThread thread(memory, budget(kBytes + kBytes / 2));
+    for (int i = 0; i < 4; ++i)
+        (void)draw(thread, tile(i), LevelChoice::Exact);
+    provider_->watched = nameOf(5);
+    const std::vector<TileSpec> tiles{tile(0), tile(5), tile(1), tile(2), tile(3)}; // 3 is resident
+    const auto drawn = thread
+                           .submit(frameOf(tiles, LevelChoice::Exact), FramePriority::Interactive,
+                                   [&] {
+                                       ++provider_->tilesBegun;
+                                       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                                       return false;
+                                   })
+                           .get();
+    ASSERT_TRUE(provider_->readAt);
+    EXPECT_LE(*provider_->readAt, 3) << "of five: not only once the others are drawn";
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        EXPECT_EQ(drawn.tiles[i].rgba8, draw(roomy, tiles[i], LevelChoice::Exact).rgba8) << i;
 }
 
 TEST_F(FrameResidency, ALevelAboveTheBudgetIsAnErrorOrACoarserLevelThatSaysSo) {

@@ -249,6 +249,50 @@ TEST(HostVolumeCache, WhatIsReadAheadTakesThePlaceOfWhatGoes) {
     EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
 }
 
+TEST(HostVolumeCache, WhatIsAwaitedGoesLast) {
+    const auto disk = std::make_shared<Disk>(4);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel + kLevel / 2});
+    const VolumeKey a{"v0", 0, 0, 0}, b{"v1", 0, 0, 0}, c{"v2", 0, 0, 0}, d{"v3", 0, 0, 0};
+    cache.setAwaited({a, d});
+    cache.keepLevel(a, levelOf(*disk, 0));
+    cache.keepLevel(b, levelOf(*disk, 1));
+    cache.keepLevel(c, levelOf(*disk, 2));
+    EXPECT_TRUE(cache.isAtHand(a)) << "although it is the oldest";
+    EXPECT_FALSE(cache.isAtHand(b));
+    cache.readAhead(d, 0, kDims.z, FloatTexels::Full);
+    EXPECT_FALSE(cache.isAtHand(c));
+    cache.keepLevel(c, levelOf(*disk, 2)); // who keeps a level must have the room
+    EXPECT_LE(cache.state().bytes, cache.state().budgetBytes);
+    EXPECT_FALSE(cache.isAtHand(a));
+    EXPECT_TRUE(cache.isAtHand(d));
+    cache.setAwaited({});
+    cache.keepLevel(a, levelOf(*disk, 0));
+    EXPECT_FALSE(cache.isAtHand(c)) << "by age again: what was awaited until now is the newest";
+    EXPECT_TRUE(cache.isAtHand(d));
+}
+
+TEST(HostVolumeCache, NothingIsReadAheadInPlaceOfWhatIsAwaited) {
+    const auto disk = std::make_shared<Disk>(3);
+    const HostVolumeCache cache(disk, {.budgetBytes = 2 * kLevel + kLevel / 2});
+    const VolumeKey a{"v0", 0, 0, 0}, b{"v1", 0, 0, 0}, c{"v2", 0, 0, 0};
+    cache.keepLevel(a, levelOf(*disk, 0));
+    cache.keepLevel(b, levelOf(*disk, 1));
+    cache.setAwaited({a, b, c});
+    auto before = disk->bytesRead.load();
+    cache.readAhead(c, 0, kDims.z, FloatTexels::Full);
+    cache.readAhead(c, 0, kDims.z, std::nullopt);
+    EXPECT_LT(disk->bytesRead, before + kLevel / 2) << "blocks, as far as there is room";
+    EXPECT_TRUE(cache.isAtHand(a));
+    EXPECT_TRUE(cache.isAtHand(b));
+    before = disk->bytesRead;
+    cache.endAwaited(b);
+    cache.readAhead(c, 0, kDims.z, FloatTexels::Full);
+    EXPECT_EQ(disk->bytesRead, before + kLevel);
+    EXPECT_TRUE(cache.isAtHand(a));
+    EXPECT_FALSE(cache.isAtHand(b));
+    EXPECT_TRUE(cache.isAtHand(c));
+}
+
 TEST(HostVolumeCache, KeptLevelsAndBlocksShareTheBudget) {
     const auto disk = std::make_shared<Disk>(3);
     HostVolumeCache cache(
