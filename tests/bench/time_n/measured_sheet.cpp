@@ -15,9 +15,9 @@ namespace voxsheet::bench {
 namespace {
 
 constexpr int kCheckedTiles = 4;
-constexpr std::size_t kMostRounds = 16; ///< of a visit
+constexpr std::size_t kMostRounds = 32; ///< of a visit
 /// Of all visits of one N: the quicker the frames, the more there are, for they are noisier.
-constexpr double kLeastTotalMs = 1200.0;
+constexpr double kLeastTotalMs = 4000.0;
 constexpr int kFirstFrames = 5; ///< until shaders are compiled and clocks are up
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
