@@ -14,7 +14,7 @@ class BenchDatasets;
 ///
 /// Every N is visited options.visits times, the whole curve there and back, for a virtual machine is slower
 /// at times: a frame that is not counted (it brings in what is new), and rounds of options.frames frames with
-/// a turning camera (1 to 16 of them, until all visits have taken 1.2 s: the quicker, the noisier). The first
+/// a turning camera (1 to 32 of them, until all visits have taken 4 s: the quicker, the noisier). The first
 /// visit also draws one with FrameSpec::checkTimers for up to four tiles, and dynamic resolution decides by
 /// first visits, as it would while N grows; bends that it does not answer to (off) are judged by all. When
 /// dynamic resolution goes to a coarser level because of a bend after N = b, the sheets of b + 1 to N
