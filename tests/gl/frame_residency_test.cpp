@@ -214,6 +214,19 @@ TEST_F(FrameResidency, TheDiskReadsWhileTilesThatAreAtHandAreDrawn) {
         EXPECT_EQ(drawn.tiles[i].rgba8, draw(roomy, tiles[i], LevelChoice::Exact).rgba8) << i;
 }
 
+TEST_F(FrameResidency, ATileWhoseDatasetIsGoneFailsAloneBesideOnesOnTheDisk) {
+    const auto memory = std::make_shared<HostVolumeCache>(
+        provider_, HostCacheOptions{.budgetBytes = 6 * kBytes, .pageCache = PageCacheUse::Keep});
+    RenderThread thread(memory, budget(kBytes + kBytes / 2));
+    TileSpec gone = tile(0);
+    gone.dataset = "gone";
+    const auto drawn =
+        thread.submit(frameOf({tile(1), gone, tile(2)}, LevelChoice::Exact), FramePriority::Interactive)
+            .get();
+    EXPECT_EQ(drawn.tiles[1].errorKind, ErrorKind::NotFound);
+    EXPECT_EQ(drawn.tiles[0].error + drawn.tiles[2].error, "");
+}
+
 TEST_F(FrameResidency, ALevelAboveTheBudgetIsAnErrorOrACoarserLevelThatSaysSo) {
     RenderThread thread(provider_, budget(kBytes - 1));
     const auto exact = draw(thread, tile(0), LevelChoice::Exact, FramePriority::Export);
