@@ -69,7 +69,9 @@ TileRenderer::TileRenderer(std::shared_ptr<const VolumeProvider> volumes, int de
     : context_(device), device_(withBudget(context_.device(), textureBudgetBytes)),
       residency_(context_, std::make_shared<const ClipShapeProvider>(std::move(volumes)),
                  device_.textureBudgetBytes),
-      techniques_(context_), resolver_(context_), targets_(context_) {}
+      techniques_(context_), resolver_(context_), targets_(context_) {
+    techniques_.setTextureBudget(device_.textureBudgetBytes);
+}
 
 std::unique_ptr<ReadbackSlot> TileRenderer::takeSlot(std::size_t bytes) {
     const auto fits = [&](const auto& slot) { return slot->readback.capacityBytes() >= bytes; };

@@ -1,5 +1,6 @@
 #include "stages/empty_space.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -7,7 +8,8 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedBytes = std::size_t(96) << 20; ///< of 366 volumes of 256^3
+constexpr std::size_t kLeastMarkBytes = std::size_t(16) << 20; ///< of 64 volumes of 256^3
+constexpr std::size_t kMostMarkBytes = std::size_t(96) << 20;
 constexpr int kLongestChunk = 16;
 
 template <typename T>
@@ -73,6 +75,7 @@ std::vector<float> largestTexels(const ResidentVolume& volume) {
 
 /// Marks are read four bytes at a time.
 std::vector<std::uint8_t> readable(std::vector<std::uint8_t> marks) {
+    marks.reserve(marks.size() + 3); // not twice as many, as resize() alone would
     marks.resize(marks.size() + 3);
     return marks;
 }
@@ -86,8 +89,18 @@ int chunkSamples(double sampleDistanceVoxels, int reachSamples) {
     return samples;
 }
 
+std::size_t markBytesFor(std::uint64_t textureBudgetBytes) {
+    return static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(textureBudgetBytes / 8, kLeastMarkBytes, kMostMarkBytes));
+}
+
 EmptySpaceStage::EmptySpaceStage(gpu::Context& context)
-    : context_(context), textures_(kCachedBytes), hostCells_(kCachedBytes) {}
+    : context_(context), textures_(kMostMarkBytes), hostCells_(kMostMarkBytes) {}
+
+void EmptySpaceStage::keepAtMost(std::size_t markBytes) {
+    textures_.setCapacity(markBytes);
+    hostCells_.setCapacity(markBytes);
+}
 
 bool EmptySpaceStage::Key::matches(const Key& other) const {
     if (rangesHash != other.rangesHash || dims != other.dims || periodic != other.periodic) return false;

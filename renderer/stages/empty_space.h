@@ -22,11 +22,19 @@ namespace voxsheet {
 /// twice the reach of a cell's mark at this distance of samples.
 [[nodiscard]] int chunkSamples(double sampleDistanceVoxels, int reachSamples);
 
+/// Bytes of marks that are worth keeping beside textures of this budget. Each change of a table or an
+/// isovalue leaves marks behind, of 1/64 of the volume's samples: eight of them for each volume that fits (of
+/// one byte a sample), for there are other techniques and other tables to come back to. In [16, 96] MiB.
+[[nodiscard]] std::size_t markBytesFor(std::uint64_t textureBudgetBytes);
+
 class EmptySpaceStage {
 public:
     static constexpr GLuint cellsUnit = 2;
 
+    /// Keeps the most that markBytesFor() gives.
     explicit EmptySpaceStage(gpu::Context& context);
+    /// Of marks on the GPU, and as many in host memory.
+    void keepAtMost(std::size_t markBytes);
 
     /// What bindOccupied() binds, for a volume of the shader's own. The reference holds until more is asked
     /// for.

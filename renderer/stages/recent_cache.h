@@ -25,6 +25,9 @@ public:
         return nullptr;
     }
 
+    /// What is above it goes with the next insert().
+    void setCapacity(std::size_t capacity) { capacity_ = capacity; }
+
     /// The newest entry stays even if it costs more than the capacity. The reference holds until the next
     /// insert().
     Value& insert(Key key, Value value, std::size_t cost = 1) {

@@ -203,6 +203,10 @@ void TechniqueSet::drawOnHost(const TileSpec& tile, const TileVolumes& tileVolum
 void TechniqueSet::setPaths(const RenderPaths& paths) { implementation_->paths = paths; }
 const RenderPaths& TechniqueSet::paths() const { return implementation_->paths; }
 
+void TechniqueSet::setTextureBudget(std::uint64_t bytes) {
+    implementation_->stages.emptySpace.keepAtMost(markBytesFor(bytes));
+}
+
 void TechniqueSet::setEmptySpaceSkipping(bool enabled) { implementation_->stages.skipEmptySpace = enabled; }
 void TechniqueSet::setShaderFiltering(bool enabled) {
     implementation_->stages.filterFloatsInShader = enabled;

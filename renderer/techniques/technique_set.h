@@ -7,6 +7,7 @@
 #include "techniques/render_paths.h"
 #include "techniques/tile_volumes.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -58,6 +59,10 @@ public:
     /// What acquire brings in decides by which path draw draws; by the rule until set.
     void setPaths(const RenderPaths& paths);
     [[nodiscard]] const RenderPaths& paths() const;
+
+    /// What is made from the volumes is kept as far as it is worth it beside textures of this budget
+    /// (markBytesFor); the most until set.
+    void setTextureBudget(std::uint64_t bytes);
 
     /// Empty-space skipping can be switched off to show that it changes no pixel; on by default.
     void setEmptySpaceSkipping(bool enabled);

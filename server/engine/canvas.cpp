@@ -46,7 +46,9 @@ void dropLastCharacter(std::string& text) {
 
 Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background, Typesetter& typesetter)
     : size_(sizePixels), typesetter_(typesetter),
-      rgba_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y) * 4) {
+      block_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y) *
+             sizeof(glm::vec4)),
+      rgba_(reinterpret_cast<float*>(block_.data()), block_.size() / sizeof(float)) {
     const glm::vec4 colour = premultiplied(background);
     for (std::size_t i = 0; i < rgba_.size(); i += 4) {
         for (int c = 0; c < 4; ++c)
@@ -188,7 +190,7 @@ TilePixels Canvas::pixels(PixelFormat format) const {
     TilePixels picture;
     picture.size = size_;
     if (format == PixelFormat::Rgba32F) {
-        picture.rgba32f = rgba_;
+        picture.rgba32f.assign(rgba_.begin(), rgba_.end());
         return picture;
     }
     picture.rgba8.resize(rgba_.size());

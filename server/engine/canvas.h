@@ -1,12 +1,14 @@
 // A picture that pictures, boxes and text are put on.
 #pragma once
 
+#include "base/huge_page_block.h"
 #include "engine/sheet_layout.h"
 #include "engine/typesetter.h"
 #include "frame/frame_spec.h"
 
 #include <glm/glm.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +50,8 @@ private:
 
     glm::ivec2 size_;
     Typesetter& typesetter_;
-    std::vector<float> rgba_; ///< top row first
+    HugePageBlock block_;   ///< of rgba_: megabytes that every picture writes anew
+    std::span<float> rgba_; ///< top row first
 };
 
 } // namespace voxsheet::engine

@@ -36,6 +36,18 @@ TEST(RecentCache, CostsStayWithinTheCapacityButForTheNewest) {
     EXPECT_TRUE(holds(cache, 5)) << "what was thrown out no longer counts";
 }
 
+TEST(RecentCache, ASmallerCapacityHoldsFromTheNextInsertOn) {
+    RecentCache<int, int> cache(100);
+    for (int i = 0; i < 4; ++i)
+        cache.insert(i, i, 20);
+    cache.setCapacity(40);
+    cache.insert(4, 4, 20);
+    EXPECT_TRUE(holds(cache, 4));
+    EXPECT_TRUE(holds(cache, 3));
+    EXPECT_FALSE(holds(cache, 2));
+    EXPECT_FALSE(holds(cache, 0));
+}
+
 TEST(ContentHash, TellsRangesAndShapesApartAndEqualGridsNot) {
     const MinMaxGrid grid{{2, 1, 1}, {{0.0F, 1.0F}, {2.0F, 3.0F}}};
     auto copy = grid;
