@@ -14,7 +14,7 @@
 namespace voxsheet {
 namespace {
 
-constexpr std::size_t kCachedTables = 64; ///< of 64 KiB each, copied in microseconds
+constexpr std::size_t kCachedTables = 256; ///< of 64 KiB each: one for each of many cells
 constexpr int kRowsPerTask = 2;
 
 template <std::size_t n, typename Vector>
