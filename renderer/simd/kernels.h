@@ -14,6 +14,7 @@ namespace voxsheet::simd {
 using Kernel = void (*)(const PictureJob& job, int firstRow, int endRow);
 
 void raycastRows(const PictureJob& job, int firstRow, int endRow);    ///< techniques/raycast/raycast.h
+void slicingRows(const PictureJob& job, int firstRow, int endRow);    ///< techniques/slicing/slicing.h
 void isosurfaceRows(const PictureJob& job, int firstRow, int endRow); ///< techniques/isosurface/isosurface.h
 void mipRows(const PictureJob& job, int firstRow, int endRow);        ///< techniques/mip/mip.h
 

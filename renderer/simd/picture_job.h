@@ -86,7 +86,8 @@ struct PictureJob {
     SampledVolume volume;
     SampledTable table;
     SampledCells cells;
-    float sampleDistanceVoxels = 0.5F;
+    float sampleDistanceVoxels = 0.5F; ///< slices: the longest way of a ray through a slab
+    float slabDepth = 0.0F;            ///< slices
     int chunkSamples = 1;
     LightNumbers light;
     bool adaptive = false;        ///< ray casting: marks hold strides (stages/sample_strides.h)

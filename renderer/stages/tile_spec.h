@@ -95,8 +95,7 @@ struct TileSpec {
     const bool ofCategories =
         std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.categories; });
     if (tile.categories || ofCategories || (!tile.crystal.empty() && tile.clip.object)) return false;
-    return tile.technique == Technique::Raycast || tile.technique == Technique::Mip ||
-           tile.technique == Technique::Isosurface;
+    return tile.technique != Technique::Surface && tile.technique != Technique::Plane;
 }
 
 /// True where whole stretches show the mean of the transfer function: ray casting of one volume that no

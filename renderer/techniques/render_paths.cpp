@@ -8,8 +8,7 @@ namespace {
 constexpr std::array kPaths{RenderPath::Shader, RenderPath::Simd};
 
 bool hasKernel(Technique technique) {
-    return VOXSHEET_SIMD != 0 && (technique == Technique::Raycast || technique == Technique::Mip ||
-                                  technique == Technique::Isosurface);
+    return VOXSHEET_SIMD != 0 && technique != Technique::Surface && technique != Technique::Plane;
 }
 
 template <typename Values, typename NameOf>

@@ -7,6 +7,7 @@
 #include "stages/preintegration.h"
 #include "techniques/isosurface/surface_texels.h"
 #include "techniques/raycast/raycast.h"
+#include "techniques/slicing/slicing.h"
 
 #include <algorithm>
 #include <span>
@@ -145,8 +146,16 @@ std::span<float> drawnRows(std::vector<float>& picture, const DrawRequest& reque
 }
 
 simd::Kernel kernelOf(Technique technique) {
-    if (technique == Technique::Isosurface) return simd::isosurfaceRows;
-    return technique == Technique::Mip ? simd::mipRows : simd::raycastRows;
+    switch (technique) {
+    case Technique::Isosurface:
+        return simd::isosurfaceRows;
+    case Technique::Mip:
+        return simd::mipRows;
+    case Technique::Slices:
+        return simd::slicingRows;
+    default:
+        return simd::raycastRows;
+    }
 }
 
 template <typename Cache, typename Make>
@@ -230,7 +239,12 @@ simd::PictureJob SimdRays::jobFor(SharedStages& stages, const DrawRequest& reque
     job.light = lightOf(tile, volume);
     job.unitsPerRadius = static_cast<float>(frame.radiusWorld / tile.unitLengthWorld);
     const int reach = tile.technique == Technique::Mip ? kLongReach : shortReach(volume.dims);
-    job.chunkSamples = chunkSamples(tile.sampleDistanceVoxels, reach);
+    if (tile.technique == Technique::Slices) {
+        const auto slabs = slabsOf(tile, frame, volume.dims);
+        job.slabDepth = static_cast<float>(slabs.depth);
+        job.sampleDistanceVoxels = static_cast<float>(slabs.longestVoxels);
+    }
+    job.chunkSamples = chunkSamples(job.sampleDistanceVoxels, reach);
     if (tile.technique == Technique::Isosurface) setSurfaces(job.surfaces, request);
     job.table = sampledTable(tableOf(tile.transfer), *tile.transfer, volume);
     if (preIntegrates(tile))

@@ -60,7 +60,6 @@ protected:
     }
     static TileSpec tile(int i, bool lit = false) {
         TileSpec made = frontTile(nameOf(i), kDim, 255.0, kPixels);
-        made.technique = Technique::Slices; // from textures on every device
         made.shading.enabled = lit;
         made.shading.gradient = GradientSource::Texture;
         return made;
@@ -71,8 +70,14 @@ protected:
         frame.levels = levels;
         return frame;
     }
-    static RenderOptions budget(std::uint64_t bytes) {
+    /// Volumes are textures on every device.
+    static RenderOptions byShaders() {
         RenderOptions options;
+        options.choosePaths = [](const RenderDevice&) { return choosePaths({}, {}, {}); };
+        return options;
+    }
+    static RenderOptions budget(std::uint64_t bytes) {
+        auto options = byShaders();
         options.textureBudgetBytes = bytes;
         return options;
     }
@@ -111,7 +116,7 @@ TEST_F(FrameResidency, ATileIsDrawnFromASmallLevelUntilItsOwnIsThere) {
     // 2 MiB slices of which none is small: a volume of 128^3 whose small level is level 1.
     addVolume(*provider_, "large", glm::ivec3(2 * kDim), ScalarType::F32,
               [](int x, int y, int z) { return std::min(255.0, 1.0 * x + y + z); });
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     const TileSpec large = frontTile("large", 2 * kDim, 255.0, kPixels);
     const auto first = drawAtHand(thread, large);
     ASSERT_EQ(first.error, "");
@@ -141,12 +146,12 @@ TEST_F(FrameResidency, NothingStandsInForLabels) {
     layer.categories = true;
     painted.layers.volumes = {layer};
     for (const TileSpec& each : {labels, painted}) {
-        RenderThread patient(provider_, {});
+        RenderThread patient(provider_, byShaders());
         const auto whole = draw(patient, each, LevelChoice::Exact);
         ASSERT_EQ(whole.error, "");
-        RenderThread thread(provider_, {});
+        RenderThread thread(provider_, byShaders());
         EXPECT_EQ(framesUntilWhole(thread, each), 1);
-        RenderThread fresh(provider_, {});
+        RenderThread fresh(provider_, byShaders());
         EXPECT_EQ(drawAtHand(fresh, each).rgba8, whole.rgba8);
     }
     // A budget with room for their level 1 alone gives no picture of it.
@@ -156,9 +161,9 @@ TEST_F(FrameResidency, NothingStandsInForLabels) {
 }
 
 TEST_F(FrameResidency, LightWithoutItsGradientTextureStandsInToo) {
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     const auto exact = draw(thread, tile(0, true), LevelChoice::Exact);
-    RenderThread fresh(provider_, {});
+    RenderThread fresh(provider_, byShaders());
     const auto first = drawAtHand(fresh, tile(0, true));
     ASSERT_EQ(first.error, "");
     EXPECT_TRUE(first.standIn);
@@ -170,7 +175,7 @@ TEST_F(FrameResidency, LightWithoutItsGradientTextureStandsInToo) {
 }
 
 TEST_F(FrameResidency, PicturesOfASwappedWorkingSetAreThoseOfALargeBudget) {
-    RenderThread roomy(provider_, {});
+    RenderThread roomy(provider_, byShaders());
     // Lit tiles take three times a volume: none but the one that is drawn fits.
     RenderThread tight(provider_, budget(3 * kBytes + kBytes / 2));
     std::vector<TileSpec> tiles;
@@ -194,7 +199,7 @@ TEST_F(FrameResidency, PicturesOfASwappedWorkingSetAreThoseOfALargeBudget) {
 TEST_F(FrameResidency, TheDiskReadsWhileTilesThatAreAtHandAreDrawn) {
     const auto memory = std::make_shared<HostVolumeCache>(
         provider_, HostCacheOptions{.budgetBytes = 6 * kBytes, .pageCache = PageCacheUse::Keep});
-    RenderThread roomy(provider_, {});
+    RenderThread roomy(provider_, byShaders());
     RenderThread thread(memory, budget(kBytes + kBytes / 2));
     for (int i = 0; i < 4; ++i)
         (void)draw(thread, tile(i), LevelChoice::Exact);
@@ -279,7 +284,7 @@ TEST_F(FrameResidency, WhatIsVisibleStaysWhenTheRestIsTooLarge) {
 }
 
 TEST_F(FrameResidency, WhatIsWantedSoonIsBroughtInWhileNothingIsDrawn) {
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     thread.setWanted(
         {{{nameOf(1), 0, 0, 0}, WantedPriority::Soon, {}}, {{"nobody", 0, 0, 0}, WantedPriority::Soon, {}}});
     for (int i = 0; i < 2000 && thread.residency().textures == 0; ++i)
@@ -293,7 +298,7 @@ TEST_F(FrameResidency, AnUrgentFrameWaitsForNoDisk) {
     // 16 chunks of 200 ms: 3 s to bring in.
     addVolume(*provider_, "slow", glm::ivec3(256, 256, kDim), ScalarType::F32,
               [](int x, int, int) { return static_cast<double>(x); });
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     ASSERT_EQ(draw(thread, tile(0), LevelChoice::Exact).error, "");
     provider_->delay = std::chrono::milliseconds(200);
     auto slow = thread.submit(frameOf({frontTile("slow", 256, 255.0, kPixels)}, LevelChoice::Exact),
@@ -318,7 +323,7 @@ TEST_F(FrameResidency, AnUrgentFrameWaitsForNoDisk) {
 
 TEST_F(FrameResidency, ATileOfWhichNothingIsReadYetIsLeftOutAndTheOthersAreDrawn) {
     provider_->blocked = nameOf(1);
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     const auto expected = draw(thread, tile(0), LevelChoice::Exact);
     const std::vector<TileSpec> tiles{tile(1), tile(0), tile(1, true)};
     for (int frame = 0; frame < 3; ++frame) { // it would never come back if it waited
@@ -339,7 +344,7 @@ TEST_F(FrameResidency, ATileOfWhichNothingIsReadYetIsLeftOutAndTheOthersAreDrawn
 
 TEST_F(FrameResidency, WhatFailsWhileATileIsLeftOutIsTheTilesErrorOnce) {
     provider_->blocked = nameOf(1);
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     EXPECT_TRUE(draw(thread, tile(1), LevelChoice::AtHand).absent);
     provider_->failing = true;
     provider_->openGate();
@@ -356,7 +361,7 @@ TEST_F(FrameResidency, NothingIsAwaitedOfALevelThatCannotBeRead) {
     addVolume(*provider_, "large", glm::ivec3(2 * kDim), ScalarType::F32,
               [](int x, int y, int z) { return std::min(255.0, 1.0 * x + y + z); });
     const TileSpec large = frontTile("large", 2 * kDim, 255.0, kPixels);
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     provider_->failingLevel0 = true;
     TilePixels pixels = drawAtHand(thread, large);
     for (int i = 0; i < 2000 && pixels.awaited; ++i) {
@@ -373,7 +378,7 @@ TEST_F(FrameResidency, NothingIsAwaitedOfALevelThatCannotBeRead) {
 }
 
 TEST_F(FrameResidency, AFailedReadIsTheTilesError) {
-    RenderThread thread(provider_, {});
+    RenderThread thread(provider_, byShaders());
     provider_->failing = true;
     const auto failed = draw(thread, tile(1), LevelChoice::Exact);
     EXPECT_NE(failed.error.find("disk"), std::string::npos) << failed.error;

@@ -70,7 +70,7 @@ TEST(ApiPaths, AForcedPathIsToldAndIsPartOfTheIdentityOfItsTilesAlone) {
     const OwnCache cache;
     const ServedProgram byRule(1);
     ASSERT_TRUE(byRule.waitForImports());
-    EXPECT_EQ(pathOf(byRule, "slices"),
+    EXPECT_EQ(pathOf(byRule, "surface"),
               (json{{"path", "shader"}, {"why", "rule"}, {"candidates", {"shader"}}}));
     if (!hasKernels(byRule)) GTEST_SKIP() << "one path only";
     const auto rule = pathOf(byRule, "raycast");
@@ -105,7 +105,7 @@ TEST(ApiPaths, ACalibrationIsRememberedUntilItIsForgottenAndOverridden) {
     EXPECT_EQ(raycast.at("path"), told.at("chosen").at("raycast").at("path"));
     EXPECT_EQ(raycast.at("date"), told.at("chosen").at("raycast").at("date"));
     EXPECT_EQ(raycast.at("ratio"), told.at("chosen").at("raycast").at("ratio"));
-    EXPECT_EQ(pathOf(program, "slices").at("why"), "rule");
+    EXPECT_EQ(pathOf(program, "surface").at("why"), "rule");
     const ServedProgram overridden(0, {"--path", "raycast=shader"});
     EXPECT_EQ(pathOf(overridden, "raycast").at("why"), "forced");
     EXPECT_EQ(pathOf(overridden, "raycast").at("path"), "shader");
@@ -117,7 +117,7 @@ TEST(ApiPaths, ACalibrationIsRememberedUntilItIsForgottenAndOverridden) {
 }
 
 TEST(ApiPaths, BadPathsAreWrongUsage) {
-    for (const std::string bad : {"warp=shader", "raycast=warp", "slices=simd", "raycast"}) {
+    for (const std::string bad : {"warp=shader", "raycast=warp", "surface=simd", "raycast"}) {
         const auto [status, text] = run("serve --port 0 --path " + bad, "2>&1 >/dev/null");
         EXPECT_EQ(status, 2) << bad << ": " << text;
         EXPECT_NE(text.find("voxsheet: error: --path: "), std::string::npos) << text;

@@ -113,7 +113,8 @@ TEST_P(SimdRays, DrawTheSameWithEveryInstructionSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SimdRays,
-                         testing::Values(Technique::Raycast, Technique::Mip, Technique::Isosurface),
+                         testing::Values(Technique::Slices, Technique::Raycast, Technique::Mip,
+                                         Technique::Isosurface),
                          [](const testing::TestParamInfo<Technique>& tile) {
                              return fields::nameOf(tile.param);
                          });

@@ -97,6 +97,12 @@ std::vector<SliceVertex> triangles(const std::vector<Slice>& polygons, const Ray
 
 } // namespace
 
+Slabs slabsOf(const TileSpec& tile, const RayFrame& frame, const glm::ivec3& levelDims) {
+    const double depth =
+        tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, levelDims, glm::dvec2(0.0)));
+    return {depth, depth * glm::length(steepestAdvance(frame) * glm::dvec3(levelDims))};
+}
+
 void SlicingTechnique::uploadVertices(std::span<const std::byte> bytes) {
     if (!vertices_ || vertices_->bytes() < bytes.size()) {
         layout_.reset();
@@ -110,12 +116,10 @@ void SlicingTechnique::uploadVertices(std::span<const std::byte> bytes) {
 void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     const auto& [tile, volumes, frame, target, rows] = request;
     const auto& volume = volumes.volume;
-    const double slabDepth =
-        tile.sampleDistanceVoxels / glm::length(voxelsPerDepth(frame, volume.dims, glm::dvec2(0.0)));
+    const auto slabs = slabsOf(tile, frame, volume.dims);
     const auto steepest = steepestAdvance(frame);
-    const int slabsPerPolygon =
-        chunkSamples(slabDepth * glm::length(steepest * glm::dvec3(volume.dims)), kLongReach);
-    const double thickness = slabDepth * slabsPerPolygon;
+    const int slabsPerPolygon = chunkSamples(slabs.longestVoxels, kLongReach);
+    const double thickness = slabs.depth * slabsPerPolygon;
     std::vector<SliceVertex> vertices;
     if (const auto box = keptBox(request)) {
         const auto placed = placedGrid(volume.meta->grid, tile.periodic);
@@ -130,7 +134,7 @@ void SlicingTechnique::draw(SharedStages& stages, const DrawRequest& request) {
     framebuffer.bindRows(firstRow, endRow);
     const glm::vec4 transparent(0.0F);
     glClearBufferfv(GL_COLOR, 0, &transparent.x);
-    if (!vertices.empty()) drawTriangles(stages, request, vertices, slabDepth, slabsPerPolygon);
+    if (!vertices.empty()) drawTriangles(stages, request, vertices, slabs.depth, slabsPerPolygon);
     gpu::Framebuffer::unbind();
     // llvmpipe may run raster work that is still queued after later compute work on the same texture.
     glFlush();

@@ -28,6 +28,13 @@ struct SliceVertex {
     float firstDepth;   ///< where the first slab of the polygon begins, in the unit of RayFrame
 };
 
+struct Slabs {
+    double depth;         ///< of each, in the unit of RayFrame
+    double longestVoxels; ///< the longest way of a ray of the picture through one, in the index frame
+};
+
+[[nodiscard]] Slabs slabsOf(const TileSpec& tile, const RayFrame& frame, const glm::ivec3& levelDims);
+
 /// Keeps the buffer of vertices from picture to picture.
 class SlicingTechnique {
 public:

@@ -37,9 +37,11 @@ TEST(PathChoice, IsByRuleUnlessSomethingElseIsKnown) {
     }
     if (!hasKernels()) GTEST_SKIP() << "no kernels in this build";
     const auto byKernels = choosePaths(kernelsByRule(), {}, {});
-    EXPECT_EQ(choiceOf(byKernels, Technique::Mip).path, RenderPath::Simd);
-    EXPECT_EQ(choiceOf(byKernels, Technique::Slices).path, RenderPath::Shader);
-    EXPECT_EQ(choiceOf(byKernels, Technique::Slices).candidates.size(), 1U);
+    for (const Technique technique :
+         {Technique::Slices, Technique::Raycast, Technique::Mip, Technique::Isosurface})
+        EXPECT_EQ(choiceOf(byKernels, technique).path, RenderPath::Simd) << techniqueName(technique);
+    EXPECT_EQ(choiceOf(byKernels, Technique::Surface).path, RenderPath::Shader);
+    EXPECT_EQ(choiceOf(byKernels, Technique::Surface).candidates.size(), 1U);
 }
 
 TEST(PathChoice, WhatIsForcedWinsOverWhatIsCalibratedAndThatOverTheRule) {
@@ -47,7 +49,7 @@ TEST(PathChoice, WhatIsForcedWinsOverWhatIsCalibratedAndThatOverTheRule) {
     const std::vector<CalibratedPath> calibrated{
         {Technique::Raycast, RenderPath::Simd, 1.5, "2026-01-31"},
         {Technique::Mip, RenderPath::Simd, 2.5, "2026-01-31"},
-        {Technique::Slices, RenderPath::Simd, 9.0, "2026-01-31"}}; // is none of its candidates
+        {Technique::Surface, RenderPath::Simd, 9.0, "2026-01-31"}}; // is none of its candidates
     const auto choices = choosePaths({}, calibrated, {{Technique::Raycast, RenderPath::Shader}});
     EXPECT_EQ(choiceOf(choices, Technique::Raycast).path, RenderPath::Shader);
     EXPECT_EQ(choiceOf(choices, Technique::Raycast).reason, PathReason::Forced);
@@ -55,8 +57,8 @@ TEST(PathChoice, WhatIsForcedWinsOverWhatIsCalibratedAndThatOverTheRule) {
     EXPECT_EQ(choiceOf(choices, Technique::Mip).path, RenderPath::Simd);
     EXPECT_EQ(choiceOf(choices, Technique::Mip).reason, PathReason::Calibrated);
     EXPECT_EQ(choiceOf(choices, Technique::Mip).calibrated, calibrated[1]);
-    EXPECT_EQ(choiceOf(choices, Technique::Slices).path, RenderPath::Shader);
-    EXPECT_EQ(choiceOf(choices, Technique::Slices).reason, PathReason::Rule);
+    EXPECT_EQ(choiceOf(choices, Technique::Surface).path, RenderPath::Shader);
+    EXPECT_EQ(choiceOf(choices, Technique::Surface).reason, PathReason::Rule);
     EXPECT_EQ(pathsOf(choices).of(Technique::Mip), RenderPath::Simd);
 }
 
@@ -73,7 +75,7 @@ TEST(PathChoice, ForcedPathsThatAreNoneSayWhatThereIs) {
     };
     EXPECT_NE(refusal("raycats=shader").find("slices, raycast, mip"), std::string::npos);
     EXPECT_NE(refusal("raycast=warp").find("choose of shader"), std::string::npos);
-    EXPECT_NE(refusal("slices=simd").find("slices has no path `simd`"), std::string::npos);
+    EXPECT_NE(refusal("surface=simd").find("surface has no path `simd`"), std::string::npos);
     EXPECT_NE(refusal("raycast").find("TECHNIQUE=PATH"), std::string::npos);
     EXPECT_NE(refusal("raycast=").find("no path ``"), std::string::npos);
 }
