@@ -1,5 +1,6 @@
 #include "frame/host_resolver.h"
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -17,23 +18,45 @@ unsigned char roundedByte(float value) {
     return static_cast<unsigned char>(std::bit_cast<std::uint32_t>(part * 255.0F + kOneAndAHalfOf2To23));
 }
 
+constexpr std::size_t kBlockPixels = 4; ///< a fixed number, so that compilers make vectors of it
+constexpr std::size_t kBlockValues = kBlockPixels * 4;
+using Block = std::array<float, kBlockValues>;
+
+/// The background, premultiplied.
+Block blockOf(const glm::vec4& background) {
+    const glm::vec4 under(glm::vec3(background) * background.w, background.w);
+    Block block{};
+    for (std::size_t i = 0; i < block.size(); ++i)
+        block[i] = under[static_cast<int>(i % 4)];
+    return block;
+}
+
 float sameFloat(float value) { return value; }
+
+template <typename Value, Value (*stored)(float)>
+void resolveBlock(const float* from, const Block& under, Value* to) {
+    Block seen;
+    for (std::size_t i = 0; i < kBlockValues; ++i)
+        seen[i] = 1.0F - from[i / 4 * 4 + 3];
+    for (std::size_t i = 0; i < kBlockValues; ++i)
+        to[i] = stored(from[i] + seen[i] * under[i]);
+}
 
 template <typename Value, Value (*stored)(float)>
 std::vector<Value> resolved(const std::vector<float>& drawn, glm::ivec2 sizePixels,
                             const glm::vec4& background) {
-    const glm::vec4 under(glm::vec3(background) * background.w, background.w);
+    const Block under = blockOf(background);
     const auto rowValues = static_cast<std::size_t>(sizePixels.x) * 4;
     const auto rows = static_cast<std::size_t>(sizePixels.y);
     std::vector<Value> picture(rowValues * rows);
     for (std::size_t row = 0; row < rows; ++row) {
         const float* from = drawn.data() + (rows - 1 - row) * rowValues;
         Value* to = picture.data() + row * rowValues;
-        for (std::size_t i = 0; i < rowValues; i += 4) {
-            const float seen = 1.0F - from[i + 3];
-            for (std::size_t channel = 0; channel < 4; ++channel)
-                to[i + channel] = stored(from[i + channel] + seen * under[static_cast<int>(channel)]);
-        }
+        std::size_t i = 0;
+        for (; i + kBlockValues <= rowValues; i += kBlockValues)
+            resolveBlock<Value, stored>(from + i, under, to + i);
+        for (; i < rowValues; ++i)
+            to[i] = stored(from[i] + (1.0F - from[i / 4 * 4 + 3]) * under[i % 4]);
     }
     return picture;
 }

@@ -6,19 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace voxsheet::engine {
 
 namespace {
 
 glm::vec4 premultiplied(const glm::vec4& colour) { return {glm::vec3(colour) * colour.w, colour.w}; }
-
-constexpr std::array<float, 256> kPartOfByte = [] {
-    std::array<float, 256> parts{};
-    for (std::size_t byte = 0; byte < parts.size(); ++byte)
-        parts[byte] = static_cast<float>(byte) / 255.0F;
-    return parts;
-}();
 
 /// To the nearest, ties up, like std::lround but without a call. NaN gives 0.
 unsigned char roundedByte(float part) {
@@ -28,11 +22,26 @@ unsigned char roundedByte(float part) {
     return static_cast<unsigned char>(whole + (value - static_cast<float>(whole) >= 0.5F ? 1 : 0));
 }
 
-constexpr std::size_t kBlockValues = 16; ///< a fixed number, so that compilers make vectors of it
+template <typename Value>
+void fillPixels(std::vector<Value>& rgba, std::size_t pixels, const std::array<Value, 4>& colour) {
+    rgba.resize(pixels * colour.size());
+    for (std::size_t i = 0; i < rgba.size(); i += colour.size())
+        std::copy(colour.begin(), colour.end(), rgba.begin() + static_cast<std::ptrdiff_t>(i));
+}
 
-void roundBlock(const float* parts, unsigned char* bytes) {
-    for (std::size_t i = 0; i < kBlockValues; ++i)
-        bytes[i] = roundedByte(parts[i]);
+/// Rows of the picture at `at`, as far as they lie on the canvas.
+template <typename Value>
+void copyRows(const std::vector<Value>& from, glm::ivec2 fromSize, std::vector<Value>& to, glm::ivec2 toSize,
+              glm::ivec2 at) {
+    const int left = std::max(0, -at.x);
+    const int right = std::min(fromSize.x, toSize.x - at.x);
+    if (right <= left) return;
+    const auto indexOf = [](glm::ivec2 pixel, glm::ivec2 size) {
+        return (static_cast<std::ptrdiff_t>(pixel.y) * size.x + pixel.x) * 4;
+    };
+    for (int y = std::max(0, -at.y); y < std::min(fromSize.y, toSize.y - at.y); ++y)
+        std::copy_n(from.begin() + indexOf({left, y}, fromSize), 4 * (right - left),
+                    to.begin() + indexOf(at + glm::ivec2(left, y), toSize));
 }
 
 /// Drops whole UTF-8 characters from the end.
@@ -44,24 +53,31 @@ void dropLastCharacter(std::string& text) {
 
 } // namespace
 
-Canvas::Canvas(glm::ivec2 sizePixels, const glm::vec4& background, Typesetter& typesetter)
-    : size_(sizePixels), typesetter_(typesetter),
-      block_(static_cast<std::size_t>(sizePixels.x) * static_cast<std::size_t>(sizePixels.y) *
-             sizeof(glm::vec4)),
-      rgba_(reinterpret_cast<float*>(block_.data()), block_.size() / sizeof(float)) {
-    const glm::vec4 colour = premultiplied(background);
-    for (std::size_t i = 0; i < rgba_.size(); i += 4) {
-        for (int c = 0; c < 4; ++c)
-            rgba_[i + static_cast<std::size_t>(c)] = colour[c];
-    }
+Canvas::Canvas(glm::ivec2 sizePixels, PixelFormat format, const glm::vec4& background, Typesetter& typesetter)
+    : size_(sizePixels), format_(format), typesetter_(typesetter) {
+    const glm::vec4 c = premultiplied(background);
+    const auto pixels = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
+    picture_.size = size_;
+    if (isOfBytes())
+        fillPixels<unsigned char>(picture_.rgba8, pixels,
+                                  {roundedByte(c.x), roundedByte(c.y), roundedByte(c.z), roundedByte(c.w)});
+    else
+        fillPixels<float>(picture_.rgba32f, pixels, {c.x, c.y, c.z, c.w});
 }
 
 void Canvas::blend(glm::ivec2 at, const glm::vec4& colour) {
-    float* pixel = rgba_.data() + (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
-                                   static_cast<std::size_t>(at.x)) *
-                                      4;
-    for (int c = 0; c < 4; ++c)
-        pixel[c] = colour[c] + pixel[c] * (1.0F - colour.w);
+    const std::size_t pixel = (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(size_.x) +
+                               static_cast<std::size_t>(at.x)) *
+                              4;
+    const float seen = 1.0F - colour.w;
+    for (int c = 0; c < 4; ++c) {
+        const std::size_t i = pixel + static_cast<std::size_t>(c);
+        if (isOfBytes())
+            picture_.rgba8[i] =
+                roundedByte(colour[c] + static_cast<float>(picture_.rgba8[i]) / 255.0F * seen);
+        else
+            picture_.rgba32f[i] = colour[c] + picture_.rgba32f[i] * seen;
+    }
 }
 
 void Canvas::fill(const PixelRect& area, const glm::vec4& colour) {
@@ -97,23 +113,14 @@ void Canvas::line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect&
 }
 
 void Canvas::put(const TilePixels& picture, glm::ivec2 at) {
-    const int left = std::max(0, -at.x);
-    const int right = std::min(picture.size.x, size_.x - at.x);
-    if (right <= left) return;
-    const auto values = static_cast<std::size_t>(right - left) * 4;
-    for (int y = std::max(0, -at.y); y < std::min(picture.size.y, size_.y - at.y); ++y) {
-        const std::size_t from = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.x) +
-                                  static_cast<std::size_t>(left)) *
-                                 4;
-        float* to = rgba_.data() + (static_cast<std::size_t>(y + at.y) * static_cast<std::size_t>(size_.x) +
-                                    static_cast<std::size_t>(left + at.x)) *
-                                       4;
-        if (picture.rgba32f.empty())
-            std::transform(&picture.rgba8[from], &picture.rgba8[from] + values, to,
-                           [](unsigned char byte) { return kPartOfByte[byte]; });
-        else
-            std::copy_n(&picture.rgba32f[from], values, to);
-    }
+    const auto values =
+        static_cast<std::size_t>(picture.size.x) * static_cast<std::size_t>(picture.size.y) * 4;
+    if ((isOfBytes() ? picture.rgba8.size() : picture.rgba32f.size()) != values)
+        throw InternalError("picture on a canvas", "it has another format");
+    if (isOfBytes())
+        copyRows(picture.rgba8, picture.size, picture_.rgba8, size_, at);
+    else
+        copyRows(picture.rgba32f, picture.size, picture_.rgba32f, size_, at);
 }
 
 int Canvas::textWidth(const std::string& line, int fontPixels) { return typesetter_.width(line, fontPixels); }
@@ -186,20 +193,6 @@ void Canvas::paragraph(const PixelRect& area, const std::string& words, int font
     }
 }
 
-TilePixels Canvas::pixels(PixelFormat format) const {
-    TilePixels picture;
-    picture.size = size_;
-    if (format == PixelFormat::Rgba32F) {
-        picture.rgba32f.assign(rgba_.begin(), rgba_.end());
-        return picture;
-    }
-    picture.rgba8.resize(rgba_.size());
-    const std::size_t blocks = rgba_.size() / kBlockValues * kBlockValues;
-    for (std::size_t i = 0; i < blocks; i += kBlockValues)
-        roundBlock(&rgba_[i], &picture.rgba8[i]);
-    std::transform(rgba_.begin() + static_cast<std::ptrdiff_t>(blocks), rgba_.end(),
-                   picture.rgba8.begin() + static_cast<std::ptrdiff_t>(blocks), roundedByte);
-    return picture;
-}
+TilePixels Canvas::take() && { return std::move(picture_); }
 
 } // namespace voxsheet::engine

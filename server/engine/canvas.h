@@ -1,14 +1,12 @@
 // A picture that pictures, boxes and text are put on.
 #pragma once
 
-#include "base/huge_page_block.h"
 #include "engine/sheet_layout.h"
 #include "engine/typesetter.h"
 #include "frame/frame_spec.h"
 
 #include <glm/glm.hpp>
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,19 +14,20 @@ namespace voxsheet::engine {
 
 enum class TextAlign { Left, Centre, Right };
 
-/// Display sRGB floats, alpha premultiplied. Not thread-safe.
+/// Display sRGB, alpha premultiplied, in the format of the pictures that are put on it: what those hold is
+/// not touched, and what is drawn over bytes is rounded to bytes each time. Not thread-safe.
 class Canvas {
 public:
     /// \param background  not premultiplied
     /// \param typesetter  outlives the canvas
-    Canvas(glm::ivec2 sizePixels, const glm::vec4& background, Typesetter& typesetter);
+    Canvas(glm::ivec2 sizePixels, PixelFormat format, const glm::vec4& background, Typesetter& typesetter);
 
     /// Over what is there. Parts outside the canvas are left out. \param colour  not premultiplied
     void fill(const PixelRect& area, const glm::vec4& colour);
     /// Smooth, only inside the area. \param colour  not premultiplied
     void line(const glm::dvec2& from, const glm::dvec2& to, const PixelRect& area, const glm::vec4& colour,
               double widthPixels = 1.0);
-    /// Replaces what is there.
+    /// Replaces what is there. Throws InternalError if the picture has another format.
     void put(const TilePixels& picture, glm::ivec2 at);
     /// One line, its middle at the height of `at`, shortened with "…" to `maxWidth` pixels. Throws
     /// Unsupported as pictureFont.
@@ -41,17 +40,19 @@ public:
 
     /// Throws Unsupported as pictureFont.
     [[nodiscard]] int textWidth(const std::string& line, int fontPixels);
-    [[nodiscard]] TilePixels pixels(PixelFormat format) const;
+    /// What was drawn.
+    [[nodiscard]] TilePixels take() &&;
 
 private:
     [[nodiscard]] std::vector<std::string> wrapped(const std::string& words, int fontPixels, int maxWidth);
     [[nodiscard]] std::string shortened(std::string line, int fontPixels, int maxWidth);
     void blend(glm::ivec2 at, const glm::vec4& premultipliedColour);
+    [[nodiscard]] bool isOfBytes() const { return format_ == PixelFormat::Rgba8; }
 
     glm::ivec2 size_;
+    PixelFormat format_;
     Typesetter& typesetter_;
-    HugePageBlock block_;   ///< of rgba_: megabytes that every picture writes anew
-    std::span<float> rgba_; ///< top row first
+    TilePixels picture_;
 };
 
 } // namespace voxsheet::engine

@@ -99,14 +99,14 @@ public:
         layout_ = layoutSheet(layoutRequest());
         prepareTiles();
         const FrameResult frame = renderTiles();
-        Canvas canvas(layout_.sizePixels, palette_.page, sources_.typesetter);
+        Canvas canvas(layout_.sizePixels, request_.format, palette_.page, sources_.typesetter);
         drawHeaders(canvas);
         std::size_t next = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             const TilePixels* picture = cells_[i].tile.spec ? &frame.tiles.at(next++) : nullptr;
             drawCell(canvas, i, picture);
         }
-        image_.pixels = canvas.pixels(request_.format);
+        image_.pixels = std::move(canvas).take();
         for (const TilePixels& tile : frame.tiles) {
             image_.pixels.renderMs += tile.renderMs;
             image_.pixels.level = std::max(image_.pixels.level, tile.level);

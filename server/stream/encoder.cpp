@@ -61,14 +61,14 @@ std::string encodeJpeg(const TilePixels& pixels, const EncodeSettings& settings)
     const std::unique_ptr<void, int (*)(tjhandle)> compressor(tjInitCompress(), &tjDestroy);
     if (!compressor) throw InternalError("JPEG encoder", "could not be created");
     const int subsampling = settings.subsampleChroma ? TJSAMP_420 : TJSAMP_444;
-    std::string out(tjBufSize(pixels.size.x, pixels.size.y, subsampling), '\0');
-    auto* buffer = reinterpret_cast<unsigned char*>(out.data());
-    auto bytes = static_cast<unsigned long>(out.size());
+    // Room for the worst case, a tenth of which is ever written: not filled before.
+    unsigned long bytes = tjBufSize(pixels.size.x, pixels.size.y, subsampling);
+    const auto room = std::make_unique_for_overwrite<unsigned char[]>(bytes);
+    auto* buffer = room.get();
     if (tjCompress2(compressor.get(), pixels.rgba8.data(), pixels.size.x, 0, pixels.size.y, TJPF_RGBX,
                     &buffer, &bytes, subsampling, settings.quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0)
         throw InternalError("JPEG encoder", tjGetErrorStr2(compressor.get()));
-    out.resize(bytes);
-    return out;
+    return {reinterpret_cast<const char*>(buffer), bytes};
 }
 
 void appendPngBytes(png_structp png, png_bytep data, png_size_t count) {

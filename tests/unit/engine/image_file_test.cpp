@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include <OpenImageIO/imageio.h>
@@ -102,9 +104,9 @@ TEST(ImageFile, UnknownEndingsAreRefused) {
 
 TEST(Canvas, ACentredParagraphIsWrappedAndStandsInTheMiddle) {
     Typesetter typesetter;
-    Canvas canvas({80, 120}, {0, 0, 0, 1}, typesetter);
+    Canvas canvas({80, 120}, PixelFormat::Rgba8, {0, 0, 0, 1}, typesetter);
     canvas.paragraph({{0, 0}, {80, 120}}, "induced by the vacancy", 12, {1, 1, 1, 1}, TextAlign::Centre);
-    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
+    const TilePixels pixels = std::move(canvas).take();
     std::vector<int> rows;
     std::vector<int> columns;
     for (int y = 0; y < 120; ++y)
@@ -123,36 +125,55 @@ TEST(Canvas, ACentredParagraphIsWrappedAndStandsInTheMiddle) {
 
 TEST(Canvas, PicturesAndBoxesStandWhereTheyArePut) {
     Typesetter typesetter;
-    Canvas canvas({10, 6}, {0, 0, 0, 1}, typesetter);
+    Canvas canvas({10, 6}, PixelFormat::Rgba8, {0, 0, 0, 1}, typesetter);
     canvas.put(picture(255), {1, 1});
     canvas.fill({{0, 0}, {1, 6}}, {1, 1, 1, 0.5F});
-    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
+    EXPECT_NO_THROW(canvas.put(picture(255), {-5, 4})) << "what hangs over is cut off";
+    const TilePixels pixels = std::move(canvas).take();
     const auto at = [&](int x, int y) { return pixels.rgba8[static_cast<std::size_t>(y * 10 + x) * 4]; };
     EXPECT_EQ(at(1, 1), 200);
     EXPECT_EQ(at(8, 4), 200);
     EXPECT_EQ(at(9, 4), 0);
     EXPECT_EQ(at(0, 3), 128);
-    EXPECT_NO_THROW(canvas.put(picture(255), {-5, 4})) << "what hangs over is cut off";
+    EXPECT_EQ(at(2, 5), 200) << "the right end of the picture that hangs over";
 }
 
-TEST(Canvas, EveryByteAndEveryTieIsRounded) {
-    TilePixels ties;
+TEST(Canvas, PicturesAreNotTouched) {
+    TilePixels floats;
     TilePixels bytes;
-    ties.size = {511, 1};
-    bytes.size = {256, 1};
-    for (int half = 0; half <= 510; ++half)
-        for (int channel = 0; channel < 4; ++channel)
-            ties.rgba32f.push_back(static_cast<float>(half) / 510.0F);
-    for (int byte = 0; byte < 256; ++byte)
+    floats.size = bytes.size = {256, 1};
+    for (int byte = 0; byte < 256; ++byte) {
         bytes.rgba8.insert(bytes.rgba8.end(), 4, static_cast<unsigned char>(byte));
+        floats.rgba32f.insert(floats.rgba32f.end(), 4, std::sqrt(static_cast<float>(byte)));
+    }
     Typesetter typesetter;
-    Canvas canvas({511, 2}, {0, 0, 0, 1}, typesetter);
-    canvas.put(ties, {0, 0});
-    canvas.put(bytes, {0, 1});
-    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
-    for (std::size_t i = 0; i < ties.rgba32f.size(); ++i)
-        EXPECT_EQ(pixels.rgba8[i], std::lround(ties.rgba32f[i] * 255.0F)) << i;
-    EXPECT_TRUE(std::equal(bytes.rgba8.begin(), bytes.rgba8.end(), pixels.rgba8.begin() + 4 * 511));
+    Canvas ofBytes({256, 1}, PixelFormat::Rgba8, {0, 0, 0, 1}, typesetter);
+    ofBytes.put(bytes, {0, 0});
+    EXPECT_EQ(std::move(ofBytes).take().rgba8, bytes.rgba8);
+    Canvas ofFloats({256, 1}, PixelFormat::Rgba32F, {0, 0, 0, 1}, typesetter);
+    ofFloats.put(floats, {0, 0});
+    EXPECT_EQ(std::move(ofFloats).take().rgba32f, floats.rgba32f);
+    Canvas other({256, 1}, PixelFormat::Rgba32F, {0, 0, 0, 1}, typesetter);
+    EXPECT_THROW(other.put(bytes, {0, 0}), InternalError);
+}
+
+TEST(Canvas, WhatIsDrawnOverBytesIsTheNearestByteOfWhatIsDrawnOverFloats) {
+    Typesetter typesetter;
+    for (int step = 0; step <= 510; ++step) {
+        const float part = static_cast<float>(step) / 510.0F; // every byte, and every tie between two
+        const auto over = [&](PixelFormat format, const glm::vec4& background) {
+            Canvas canvas({1, 1}, format, background, typesetter);
+            canvas.fill({{0, 0}, {1, 1}}, {part, 1.0F - part, 2.0F * part, part});
+            return std::move(canvas).take();
+        };
+        for (const glm::vec4 background :
+             {glm::vec4(0, 0, 0, 1), glm::vec4(0.2F, 0.4F, 1, 1), glm::vec4(0)}) {
+            const auto bytes = over(PixelFormat::Rgba8, background).rgba8;
+            const auto floats = over(PixelFormat::Rgba32F, background).rgba32f;
+            for (std::size_t c = 0; c < 4; ++c)
+                EXPECT_EQ(bytes.at(c), std::lround(std::min(floats.at(c), 1.0F) * 255.0F)) << step;
+        }
+    }
 }
 
 TEST(Canvas, TextLeavesInkAndIsShortenedToItsWidth) {
@@ -162,11 +183,11 @@ TEST(Canvas, TextLeavesInkAndIsShortenedToItsWidth) {
         GTEST_SKIP() << "no font on this machine";
     }
     Typesetter typesetter;
-    Canvas canvas({200, 40}, {0, 0, 0, 1}, typesetter);
+    Canvas canvas({200, 40}, PixelFormat::Rgba8, {0, 0, 0, 1}, typesetter);
     EXPECT_GT(canvas.textWidth("a long line of text", 14), canvas.textWidth("a long", 14));
     canvas.text({10, 20}, TextAlign::Left, "a line that is far too long for the place it has got", 14,
                 {1, 1, 1, 1}, 100);
-    const TilePixels pixels = canvas.pixels(PixelFormat::Rgba8);
+    const TilePixels pixels = std::move(canvas).take();
     int inside = 0;
     int outside = 0;
     for (int y = 0; y < 40; ++y) {
