@@ -76,22 +76,21 @@ bool StoreWriter::claimNewFolder() {
     }
 }
 
-void StoreWriter::addArray(int field, int step, std::vector<std::byte>&& samples) {
+void StoreWriter::addArray(int field, int step, std::span<const std::byte> samples) {
     validateVolumeKey(meta_, {meta_.key, field, step, 0});
     const auto index = static_cast<std::size_t>(field) * static_cast<std::size_t>(meta_.stepCount()) +
                        static_cast<std::size_t>(step);
     if (written_[index]) throw InvalidInput("dataset '" + meta_.sourcePath + "'", "an array was given twice");
 
     auto& description = meta_.fields[static_cast<std::size_t>(field)];
-    const std::vector<std::byte> finest = std::move(samples);
-    StoredArray array{description.storedType, meta_.grid.dims, finest, description.valueScale,
+    StoredArray array{description.storedType, meta_.grid.dims, samples, description.valueScale,
                       description.valueOffset};
     validateStoredArray(array);
     const auto layout = arrayLayout(meta_, field);
     const FileHandle file(temporary_->path / arrayFileName(field, step), O_RDWR | O_CREAT | O_EXCL);
     // The system copies the finest level, most of the bytes, on one processor: meanwhile the others work.
     auto finestWritten =
-        std::async(std::launch::async, [&] { file.writeAll(layout.levels[0].offset, finest); });
+        std::async(std::launch::async, [&] { file.writeAll(layout.levels[0].offset, samples); });
     auto statistics = computeStatistics(array);
     std::vector<std::byte> current;
     for (int level = 0; level < meta_.levels(); ++level) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ public:
 
     /// Level 0 of one field and step, in the field's storedType, x fastest, native byte order. Each once, in
     /// any order. Throws InvalidInput if the size is wrong or the array came already; IoError.
-    void addArray(int field, int step, std::vector<std::byte>&& samples);
+    void addArray(int field, int step, std::span<const std::byte> samples);
 
     /// Adds to DatasetMeta::notes. Before entry() and commit().
     void addNotes(const std::vector<std::string>& notes);

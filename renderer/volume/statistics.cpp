@@ -15,6 +15,7 @@ namespace voxsheet {
 namespace {
 
 constexpr long kChunkSamples = 1L << 18;
+constexpr long kBlockSamples = 1L << 13; ///< of a chunk, which as doubles stay in a core's cache
 
 /// How often each value occurs, or what a chunk of samples adds up to; enough to merge chunks in any order.
 struct Moments {
@@ -97,12 +98,10 @@ public:
         : halfLow_(0.5 * histogram.low), halfWidth_(0.5 * histogram.high - 0.5 * histogram.low) {}
 
     /// \param value  finite
-    [[nodiscard]] std::size_t of(double value) const {
-        if (!(halfWidth_ > 0.0)) return 0;
+    [[nodiscard]] int of(double value) const {
         const double place = (0.5 * value - halfLow_) / halfWidth_ * kHistogramBins;
-        const double above = place > 0.0 ? place : 0.0;
-        return static_cast<std::size_t>(
-            static_cast<int>(above < kHistogramBins - 1 ? above : kHistogramBins - 1));
+        const double above = place > 0.0 ? place : 0.0; // 0 where all values are equal, too: 0 / 0
+        return static_cast<int>(above < kHistogramBins - 1 ? above : kHistogramBins - 1);
     }
 
 private:
@@ -141,29 +140,40 @@ FieldStep fromCounts(const StoredArray& array) {
     auto step = summary(total, static_cast<std::uint64_t>(samples));
     const Bins bins(step.histogram);
     for (std::size_t v = 0; v < valueCount; ++v)
-        if (counts[v] > 0) step.histogram.counts[bins.of(valueAt(v))] += counts[v];
+        if (counts[v] > 0) step.histogram.counts[static_cast<std::size_t>(bins.of(valueAt(v)))] += counts[v];
     return step;
+}
+
+/// Calls each(values) with the finite values of samples [begin, end), a block at a time.
+template <typename T, typename Each>
+void forFiniteBlocks(const StoredArray& array, long begin, long end, const Each& each) {
+    const auto* in = reinterpret_cast<const T*>(array.samples.data());
+    std::vector<double> values(kBlockSamples);
+    for (long block = begin; block < end; block += kBlockSamples) {
+        const auto count = static_cast<std::size_t>(std::min(kBlockSamples, end - block));
+        bool allFinite = true;
+        for (std::size_t i = 0; i < count; ++i) {
+            values[i] =
+                array.valueScale * static_cast<double>(in[block + static_cast<long>(i)]) + array.valueOffset;
+            allFinite &= std::abs(values[i]) <= std::numeric_limits<double>::max();
+        }
+        const auto last = values.begin() + static_cast<std::ptrdiff_t>(count);
+        const auto finiteEnd =
+            allFinite ? last
+                      : std::remove_if(values.begin(), last, [](double v) { return !std::isfinite(v); });
+        each(std::span<const double>(values.begin(), finiteEnd));
+    }
 }
 
 template <typename T>
 FieldStep fromSamples(const StoredArray& array) {
-    const auto* in = reinterpret_cast<const T*>(array.samples.data());
     const auto samples = static_cast<long>(array.samples.size() / sizeof(T));
-    const auto valueAt = [&](long i) {
-        return array.valueScale * static_cast<double>(in[i]) + array.valueOffset;
-    };
-
     // Chunks are merged in their own order, so that the result does not depend on the number of threads.
     std::vector<Moments> chunks(static_cast<std::size_t>((samples + kChunkSamples - 1) / kChunkSamples));
     parallelFor(samples, kChunkSamples, [&](long begin, long end) {
-        std::vector<double> values(static_cast<std::size_t>(end - begin));
-        std::size_t finite = 0;
-        for (long i = begin; i < end; ++i) {
-            values[finite] = valueAt(i);
-            finite += std::isfinite(values[finite]) ? 1U : 0U;
-        }
-        values.resize(finite);
-        chunks[static_cast<std::size_t>(begin / kChunkSamples)] = momentsOf(values);
+        auto& chunk = chunks[static_cast<std::size_t>(begin / kChunkSamples)];
+        forFiniteBlocks<T>(array, begin, end,
+                           [&](std::span<const double> values) { chunk.merge(momentsOf(values)); });
     });
     Moments total;
     for (const auto& chunk : chunks)
@@ -174,8 +184,13 @@ FieldStep fromSamples(const StoredArray& array) {
     const Bins bins(step.histogram);
     parallelFor(samples, kChunkSamples, [&](long begin, long end) {
         std::vector<std::uint64_t> local(kHistogramBins);
-        for (long i = begin; i < end; ++i)
-            if (const double value = valueAt(i); std::isfinite(value)) ++local[bins.of(value)];
+        std::vector<int> places(kBlockSamples);
+        forFiniteBlocks<T>(array, begin, end, [&](std::span<const double> values) {
+            std::transform(values.begin(), values.end(), places.begin(),
+                           [&](double v) { return bins.of(v); });
+            for (std::size_t i = 0; i < values.size(); ++i)
+                ++local[static_cast<std::size_t>(places[i])];
+        });
         const std::lock_guard lock(mutex);
         for (std::size_t b = 0; b < local.size(); ++b)
             step.histogram.counts[b] += local[b];

@@ -24,9 +24,9 @@ void requireMemory(const std::string& what, std::uint64_t neededBytes, std::uint
 ComputedEntry::ComputedEntry(std::shared_ptr<const store::StoreEntry> stored) : entry_(std::move(stored)) {}
 
 ComputedEntry::ComputedEntry(const store::VolumeStore& store, DatasetMeta meta,
-                             std::vector<std::byte>&& samples)
+                             std::span<const std::byte> samples)
     : writer_(std::make_unique<store::StoreWriter>(store, std::move(meta))) {
-    writer_->addArray(0, 0, std::move(samples));
+    writer_->addArray(0, 0, samples);
     entry_ = writer_->entry();
 }
 

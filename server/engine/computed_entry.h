@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace voxsheet::engine {
 
@@ -23,7 +23,7 @@ public:
     /// One that the store had.
     explicit ComputedEntry(std::shared_ptr<const store::StoreEntry> stored);
     /// Writes one field at one step. Throws what StoreWriter throws.
-    ComputedEntry(const store::VolumeStore& store, DatasetMeta meta, std::vector<std::byte>&& samples);
+    ComputedEntry(const store::VolumeStore& store, DatasetMeta meta, std::span<const std::byte> samples);
 
     [[nodiscard]] const std::shared_ptr<const store::StoreEntry>& entry() const { return entry_; }
     [[nodiscard]] const std::shared_ptr<const DatasetMeta>& meta() const { return entry_->meta(); }

@@ -10,6 +10,11 @@ namespace voxsheet::engine {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// Whoever is told looks at the whole sheet anew.
+constexpr std::chrono::milliseconds kProgressEvery{100};
+
 Failure failureOf(const std::exception& error) {
     if (const auto* known = dynamic_cast<const Error*>(&error)) return {known->kind(), known->what()};
     return {ErrorKind::Internal, std::string("an internal fault: ") + error.what()};
@@ -140,12 +145,14 @@ void EntryJobs::execute(const std::string& id, const Work& work,
     if (listener_) listener_(id, false);
     JobControl control;
     control.cancelled = [cancelled] { return cancelled->load(); };
-    control.progress = [this, id, cancelled](double progress) {
+    control.progress = [this, id, cancelled, told = Clock::now()](double progress) mutable {
         {
             const std::lock_guard lock(mutex_);
             const auto known = jobs_.find(id);
             if (known == jobs_.end() || known->second.cancelled != cancelled) return;
             known->second.state.progress = std::clamp(progress, 0.0, 1.0);
+            if (Clock::now() - told < kProgressEvery) return;
+            told = Clock::now();
         }
         if (listener_) listener_(id, false);
     };

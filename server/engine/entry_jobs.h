@@ -52,7 +52,7 @@ public:
     /// Makes the entry, or throws; Error becomes the failure's sentence, anything else an internal one.
     using Work = std::function<JobResult(const JobControl&)>;
     /// Called on the worker's thread, with no lock held: `settled` when a job became ready or failed, else
-    /// on progress.
+    /// when it begins and, ten times a second at most, on progress.
     using Listener = std::function<void(const std::string& id, bool settled)>;
 
     EntryJobs(int workers, Listener listener);

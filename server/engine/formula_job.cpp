@@ -1,6 +1,7 @@
 #include "engine/formula_job.h"
 
 #include "base/errors.h"
+#include "base/huge_page_block.h"
 #include "base/thread_count.h"
 #include "engine/sample_reader.h"
 #include "store/store_key.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -68,21 +68,22 @@ void computeSlab(const FormulaTask& task, const VolumeProvider& volumes, int z, 
     sheet::evaluatePlan(task.plan, arrays, out);
 }
 
-std::vector<std::byte> computeSamples(const FormulaTask& task, const VolumeProvider& volumes,
-                                      const JobControl& control) {
+/// Floats, x fastest.
+HugePageBlock computeSamples(const FormulaTask& task, const VolumeProvider& volumes,
+                             const JobControl& control) {
     const glm::ivec3 dims = task.inputs.front().meta->grid.dims;
     const auto slice = static_cast<std::size_t>(dims.x) * static_cast<std::size_t>(dims.y);
-    std::vector<std::byte> result(slice * static_cast<std::size_t>(dims.z) * sizeof(float));
+    HugePageBlock result(slice * static_cast<std::size_t>(dims.z) * sizeof(float));
+    const std::span<float> samples(reinterpret_cast<float*>(result.data()), result.size() / sizeof(float));
     std::mutex mutex; // of the progress, which never goes back
     int slicesDone = 0;
     parallelFor(dims.z, slabSlices(dims), [&](long begin, long end) {
         if (control.cancelled && control.cancelled())
             throw Cancelled("formula " + task.formula, "it is not needed any more");
         const auto count = static_cast<int>(end - begin);
-        std::vector<float> slab(slice * static_cast<std::size_t>(count));
-        computeSlab(task, volumes, static_cast<int>(begin), count, slab);
-        std::memcpy(result.data() + slice * static_cast<std::size_t>(begin) * sizeof(float), slab.data(),
-                    slab.size() * sizeof(float));
+        computeSlab(task, volumes, static_cast<int>(begin), count,
+                    samples.subspan(slice * static_cast<std::size_t>(begin),
+                                    slice * static_cast<std::size_t>(count)));
         const std::lock_guard lock(mutex);
         slicesDone += count;
         if (control.progress) control.progress(0.8 * slicesDone / dims.z);
@@ -175,8 +176,8 @@ ComputedEntry computeFormula(const FormulaTask& task, const store::VolumeStore& 
     const std::string key = formulaEntryKey(task);
     if (const auto entry = store.open(key)) return ComputedEntry(entry);
     requireMemory("formula " + task.formula, formulaMemoryBytes(task), memoryBudgetBytes);
-    auto samples = computeSamples(task, volumes, control);
-    return {store, resultMeta(task, key), std::move(samples)};
+    const auto samples = computeSamples(task, volumes, control);
+    return {store, resultMeta(task, key), {samples.data(), samples.size()}};
 }
 
 } // namespace voxsheet::engine

@@ -20,25 +20,33 @@ std::optional<double> finite(double value) {
     return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-} // namespace
-
-std::vector<double> readValues(const VolumeProvider& volumes, const DatasetMeta& meta, const VolumeKey& key,
-                               int zBegin, int zCount) {
+/// Values of slices of a level, as doubles or rounded to floats.
+template <typename Value>
+std::vector<Value> readSlices(const VolumeProvider& volumes, const DatasetMeta& meta, const VolumeKey& key,
+                              int zBegin, int zCount) {
     const FieldMeta& field = meta.fields.at(static_cast<std::size_t>(key.field));
     const ScalarType type = levelType(field.storedType, key.level);
     const glm::ivec3 dims = levelDims(meta.grid.dims, key.level);
     const auto count = static_cast<std::size_t>(sampleCount({dims.x, dims.y, zCount}));
     std::vector<std::byte> bytes(count * scalarBytes(type));
     volumes.readSlices(key, zBegin, zCount, bytes);
-    std::vector<double> values(count);
+    std::vector<Value> values(count);
     visitScalar(type, [&]<typename T>() {
         for (std::size_t i = 0; i < count; ++i) {
             T stored;
             std::memcpy(&stored, bytes.data() + i * sizeof(T), sizeof(T));
-            values[i] = field.valueScale * static_cast<double>(stored) + field.valueOffset;
+            values[i] =
+                static_cast<Value>(field.valueScale * static_cast<double>(stored) + field.valueOffset);
         }
     });
     return values;
+}
+
+} // namespace
+
+std::vector<double> readValues(const VolumeProvider& volumes, const DatasetMeta& meta, const VolumeKey& key,
+                               int zBegin, int zCount) {
+    return readSlices<double>(volumes, meta, key, zBegin, zCount);
 }
 
 ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& meta, int field, int step) {
@@ -46,8 +54,7 @@ ValueSummary summariseField(const VolumeProvider& volumes, const DatasetMeta& me
     while (level + 1 < meta.levels() && sampleCount(levelDims(meta.grid.dims, level)) > kSummarySamples)
         ++level;
     const glm::ivec3 dims = levelDims(meta.grid.dims, level);
-    const std::vector<double> values = readValues(volumes, meta, {meta.key, field, step, level}, 0, dims.z);
-    std::vector<float> sorted(values.begin(), values.end());
+    auto sorted = readSlices<float>(volumes, meta, {meta.key, field, step, level}, 0, dims.z);
     const FieldMeta& described = meta.fields.at(static_cast<std::size_t>(field));
     const ValueExtremes all = extremesOf(described).value_or(ValueExtremes{});
     ValueSummary summary = summariseValues(sorted, all.min, all.max);

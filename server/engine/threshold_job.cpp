@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+#include <span>
 
 namespace voxsheet::engine {
 
@@ -74,12 +74,6 @@ DatasetMeta resultMeta(const ThresholdTask& task, const std::string& key, const 
     return meta;
 }
 
-std::vector<std::byte> bytesOf(const std::vector<float>& values) {
-    std::vector<std::byte> bytes(values.size() * sizeof(float));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    return bytes;
-}
-
 } // namespace
 
 std::string thresholdEntryKey(const ThresholdTask& task) {
@@ -116,7 +110,7 @@ ComputedEntry computeThreshold(const ThresholdTask& task, const store::VolumeSto
     }
     throwIfCancelled(task, control);
     report(control, 0.9);
-    return {store, resultMeta(task, key, result.grid), bytesOf(result.distances)};
+    return {store, resultMeta(task, key, result.grid), std::as_bytes(std::span(result.distances))};
 }
 
 bool holdsSignedDistances(const DatasetMeta& meta) {

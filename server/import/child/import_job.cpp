@@ -166,7 +166,8 @@ std::string importIntoStore(const ReaderRegistry& readers, const store::VolumeSt
     store::StoreWriter* writer = nullptr;
     const auto sink =
         applyOptions(header, job.options, [&writer](int field, int step, std::vector<std::byte>&& samples) {
-            writer->addArray(field, step, std::move(samples));
+            const auto taken = std::move(samples); // free before the next is read
+            writer->addArray(field, step, taken);
         });
     header.meta.key = key;
     if (job.header) job.header(previewOf(header));

@@ -139,6 +139,30 @@ TEST(EntryJobs, AFailedJobStartsAgainWhenAsked) {
     EXPECT_EQ(jobs.find("a")->state, DatasetState::Ready);
 }
 
+TEST(EntryJobs, ProgressIsToldNowAndThenAndKnownAlways) {
+    std::atomic<int> told{0};
+    EntryJobs jobs(1, [&](const std::string& id, bool settled) {
+        if (id == "busy" && !settled) ++told;
+    });
+    std::atomic<int> toldTooOften{0};
+    std::atomic<double> known{0.0};
+    jobs.ensure("busy", [&](const JobControl& control) {
+        const auto begun = std::chrono::steady_clock::now();
+        for (int i = 1; i <= 300; ++i) {
+            control.progress(i / 300.0);
+            std::this_thread::sleep_for(1ms);
+        }
+        known = jobs.find("busy")->progress;
+        const auto tenths = (std::chrono::steady_clock::now() - begun) / 100ms;
+        toldTooOften = told > 1 + tenths ? 1 : 0; // 1: that it begins
+        return metaNamed("k");
+    });
+    ASSERT_TRUE(jobs.waitIdle(10));
+    EXPECT_EQ(toldTooOften, 0) << told;
+    EXPECT_GE(told, 2) << "300 ms have passed";
+    EXPECT_DOUBLE_EQ(known, 1.0);
+}
+
 TEST(EntryJobs, AResultOfACancelledRunIsNotTakenForTheNewOne) {
     EntryJobs jobs(2, {});
     std::promise<void> release;
