@@ -4,6 +4,7 @@
 #include "cli/bench/calibrate_command.h"
 #include "cli/bench/cases_table.h"
 #include "cli/bench/edit_bench.h"
+#include "cli/bench/edit_to_pixels_bench.h"
 #include "cli/bench/http_bench.h"
 #include "cli/bench/import_bench.h"
 #include "cli/bench/stream_bench.h"
@@ -76,6 +77,22 @@ Action addEdit(CLI::App& app) {
     app.add_option("--device", options->device, "EGL device to draw on");
     app.footer("Example: voxsheet bench edit --json");
     return withOutput(app, [options] { return runEditBench(*options); });
+}
+
+Action addEditToPixels(CLI::App& app) {
+    auto options = std::make_shared<EditToPixelsOptions>();
+    app.add_option("--cells", options->cells, "Number of cells (9)")->check(CLI::Range(1, 256));
+    app.add_option("--dim", options->dim, "Samples per edge of each volume (128)")
+        ->check(CLI::Range(16, 512));
+    app.add_option("--width", options->width, "Width of the sheet in pixels (768)")
+        ->check(CLI::Range(64, 8192));
+    app.add_option("--height", options->height, "Height of the sheet in pixels (768)")
+        ->check(CLI::Range(64, 8192));
+    app.add_option("--edits", options->edits, "Edits of each kind that count (40)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--device", options->device, "EGL device to draw on");
+    app.footer("Example: voxsheet bench edit-to-pixels --json");
+    return withOutput(app, [options] { return runEditToPixelsBench(*options); });
 }
 
 Action addImport(CLI::App& app) {
@@ -165,6 +182,9 @@ Action addBench(CLI::App& app) {
         &addImport);
     add("edit", "Time from an edit to the final pictures: one dirty cell against a whole dirty sheet",
         &addEdit);
+    add("edit-to-pixels",
+        "Time from an edit of each kind to the first pictures on a page, and to the final ones",
+        &addEditToPixels);
     add("calibrate", "Find the fastest path of each technique on this device, and remember it",
         &addCalibrate);
     add("http", "Requests per second and their latency over loopback", &addHttp);

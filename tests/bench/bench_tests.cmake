@@ -80,6 +80,9 @@ if(TARGET voxsheet)
     add_test(NAME bench.edit COMMAND voxsheet bench edit --cells 4 --dim 16 --width 32 --height 32 --repeats 2 --json)
     set_tests_properties(bench.edit PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
         PASS_REGULAR_EXPRESSION "\"all_ms\": .*\"dirty_ms\": .*\"ratio\": ")
+    add_test(NAME bench.edit_to_pixels COMMAND voxsheet bench edit-to-pixels --cells 4 --dim 16 --width 128 --height 128 --edits 2 --json)
+    set_tests_properties(bench.edit_to_pixels PROPERTIES LABELS bench TIMEOUT 120 RESOURCE_LOCK gpu
+        PASS_REGULAR_EXPRESSION "\"edit\": \"camera\",.*\"final_ms_p50\": .*\"first_ms_p95\": .*\"edit\": \"formula\"")
 endif()
 if(TARGET voxsheet)
     add_test(NAME bench.import COMMAND voxsheet bench import --dim 24 --repeats 1 --files 1,3 --file-dim 16 --json)

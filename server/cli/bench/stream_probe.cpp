@@ -8,6 +8,8 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace voxsheet::cli {
@@ -107,7 +109,13 @@ void StreamProbe::take(const nlohmann::json& tile) {
     const bool final = tile.at("final").get<bool>();
     current_.scale = std::min(current_.scale, tile.at("scale").get<double>());
     current_.final = current_.final && final;
-    finalCells_[tile.at("cell").get<std::string>()] = final;
+    const auto cell = tile.at("cell").get<std::string>();
+    finalCells_[cell] = final;
+    resting_ = false;
+    if (final) finalAt_ = Clock::now();
+    if (unseen_.erase(cell) == 0) return;
+    unseenScale_ = std::min(unseenScale_, tile.at("scale").get<double>());
+    seenAt_ = Clock::now();
 }
 
 void StreamProbe::take(const nlohmann::json& header, std::string_view payload) {
@@ -115,6 +123,12 @@ void StreamProbe::take(const nlohmann::json& header, std::string_view payload) {
     if (type == "hello") {
         const std::lock_guard lock(mutex_);
         id_ = header.at("stream").get<std::string>();
+        changed_.notify_all();
+        return;
+    }
+    if (type == "rest") {
+        const std::lock_guard lock(mutex_);
+        resting_ = true;
         changed_.notify_all();
         return;
     }
@@ -151,6 +165,7 @@ std::uint64_t StreamProbe::post(nlohmann::json view) {
         if (!failure_.empty()) throw IoError("stream", failure_);
         id = nextView_++;
         posted_[id] = Clock::now();
+        resting_ = false;
         for (auto& [cell, final] : finalCells_)
             final = false;
     }
@@ -173,6 +188,45 @@ bool StreamProbe::waitFinal(std::size_t cells, double seconds) {
             final += done ? 1 : 0;
         return final >= cells || !failure_.empty();
     }) && failure_.empty();
+}
+
+bool StreamProbe::waitRest(double seconds) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] {
+        return resting_ || !failure_.empty();
+    }) && failure_.empty();
+}
+
+ProbedEdit StreamProbe::edit(const std::string& path, const nlohmann::json& body,
+                             const std::set<std::string>& cells, double seconds) {
+    {
+        const std::lock_guard lock(mutex_);
+        resting_ = false;
+        unseen_ = cells;
+        unseenScale_ = 1.0;
+        for (const auto& cell : cells)
+            finalCells_[cell] = false;
+    }
+    const auto begun = Clock::now();
+    const auto result = control_->client.Patch(path, body.dump(), "application/json");
+    if (!result) throw IoError("stream", "an edit could not be sent");
+    if (result->status >= 400) throw IoError("stream", "an edit was refused: " + result->body);
+    std::unique_lock lock(mutex_);
+    const auto isFinal = [this](const std::string& cell) { return finalCells_[cell]; };
+    // A cell that is being computed is no reason not to rest.
+    const auto shown = [&] {
+        return resting_ && unseen_.empty() && std::all_of(cells.begin(), cells.end(), isFinal);
+    };
+    changed_.wait_for(lock, std::chrono::duration<double>(seconds),
+                      [&] { return shown() || !failure_.empty(); });
+    if (!shown())
+        throw IoError("stream", failure_.empty() ? "an edit of " + path + " did not show within " +
+                                                       std::to_string(std::lround(seconds)) + " s"
+                                                 : failure_);
+    const auto since = [begun](Clock::time_point when) {
+        return std::chrono::duration<double, std::milli>(when - begun).count();
+    };
+    return {since(seenAt_), unseenScale_, since(finalAt_)};
 }
 
 std::vector<ProbedFrame> StreamProbe::takeFrames() {

@@ -10,6 +10,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,6 +27,13 @@ struct ProbedFrame {
     std::chrono::steady_clock::time_point when;
 };
 
+/// From sending an edit to the last decoded pixel.
+struct ProbedEdit {
+    double firstMs = 0.0; ///< of each cell's first picture, whatever its quality
+    double scale = 1.0;   ///< coarsest of these
+    double finalMs = 0.0; ///< of each cell's final picture
+};
+
 class StreamProbe {
 public:
     /// Opens the stream and waits for its greeting. Throws IoError.
@@ -38,6 +47,12 @@ public:
     /// Blocks until a final frame has ended in which every one of `cells` has a final picture; false after
     /// the deadline.
     bool waitFinal(std::size_t cells, double seconds);
+    /// Blocks until the server has nothing more to draw; false after the deadline.
+    bool waitRest(double seconds);
+    /// Sends a PATCH while the server is at rest, and waits for pictures of all `cells` and for rest. Throws
+    /// IoError if it is refused or something does not come in time.
+    [[nodiscard]] ProbedEdit edit(const std::string& path, const nlohmann::json& body,
+                                  const std::set<std::string>& cells, double seconds);
     [[nodiscard]] std::vector<ProbedFrame> takeFrames();
 
 private:
@@ -59,6 +74,11 @@ private:
     std::map<std::string, bool> finalCells_;
     ProbedFrame current_;
     std::vector<ProbedFrame> frames_;
+    bool resting_ = false;
+    std::set<std::string> unseen_; ///< cells of the last edit that have no picture since
+    double unseenScale_ = 1.0;     ///< coarsest of those that got one
+    Clock::time_point seenAt_;     ///< when the last of them got it
+    Clock::time_point finalAt_;    ///< when any got its final one last
     class Connection;
     std::unique_ptr<Connection> control_; ///< of post()
     std::unique_ptr<Connection> acks_;    ///< of the receiving thread
