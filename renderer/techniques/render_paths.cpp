@@ -8,7 +8,9 @@ namespace {
 constexpr std::array kPaths{RenderPath::Shader, RenderPath::Simd};
 
 bool hasKernel(Technique technique) {
-    return VOXSHEET_SIMD != 0 && technique != Technique::Surface && technique != Technique::Plane;
+    TileSpec plain;
+    plain.technique = technique;
+    return VOXSHEET_SIMD != 0 && marchesRays(plain);
 }
 
 template <typename Values, typename NameOf>
